@@ -69,9 +69,12 @@ impl Reader<'_> {
             self.factor = Some(format!("{word} by {factor}"));
             value = value.map(of)?;
         }
-        // the formula goes on
-        let goes_on =
-            matches!(self.peek(), Some(Token::Times | Token::Over | Token::Other | Token::Number(_)));
+        let goes_on = match self.peek() {
+            Some(Token::Times | Token::Over | Token::Other) => true,
+            // `B = [..] + 5`, but not a text such as `made of 6 legs`
+            Some(Token::Number(_)) => !matches!(value, ListValue::Text(_)),
+            _ => false,
+        };
         (!goes_on).then_some(value)
     }
 

@@ -49,6 +49,7 @@ pub(super) fn tokens(text: &str) -> (Vec<Token>, Vec<TokenPlace>) {
         }
         let mut at_start = true;
         let mut continued = false;
+        let mut unclosed = None;
         while let Some(c) = rest.chars().next() {
             let mut skip = c.len_utf8();
             places.resize(out.len(), (k + 1, line.len() - rest.len()));
@@ -84,11 +85,14 @@ pub(super) fn tokens(text: &str) -> (Vec<Token>, Vec<TokenPlace>) {
                 '=' | ':' => out.push(Token::Is),
                 ',' => out.push(Token::Comma),
                 ';' => out.push(Token::Semicolon),
+                // no second search to the end of a long line
+                '"' | '\'' if unclosed == Some(c) => out.push(Token::Other),
                 '"' | '\'' => {
                     if let Some(end) = quote_end(&rest[1..], c) {
                         out.push(Token::Text(rest[1..=end].into()));
                         skip = end + 2;
                     } else {
+                        unclosed = Some(c);
                         out.push(Token::Other);
                     }
                 }

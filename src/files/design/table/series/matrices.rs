@@ -45,7 +45,7 @@ pub(super) fn to_rows(sheet: &mut CellTable, guesses: &mut Vec<String>) -> Resul
 
 /// The matrices of lines with four numbers, each in one row; `None` for other tables.
 fn lines_of_matrices(sheet: &CellTable) -> Result<Option<Vec<SheetRow>>, InvalidSeries> {
-    let mut factor = 1.0;
+    let (mut factor, mut alone) = (1.0, None);
     let mut lines: Vec<(usize, Vec<String>)> = Vec::new();
     for row in &sheet.rows {
         let count = row.cells.iter().filter(|cell| sheet.number(cell).is_some()).count();
@@ -55,6 +55,8 @@ fn lines_of_matrices(sheet: &CellTable) -> Result<Option<Vec<SheetRow>>, Invalid
             lines.push((row.line, row.cells.iter().map(|cell| sheet.scaled(cell, factor)).collect()));
         } else if count > 1 {
             return Ok(None);
+        } else if row.cells.len() == count {
+            alone = alone.or(Some(row.line));
         }
     }
     let width = lines.first().map_or(0, |(_, cells)| cells.len());
@@ -68,6 +70,10 @@ fn lines_of_matrices(sheet: &CellTable) -> Result<Option<Vec<SheetRow>>, Invalid
     }
     if width != WIDTH {
         return Ok(None);
+    }
+    if let Some(line) = alone {
+        let message = format!("line {line} has one number among matrices with lines of four");
+        return Err(InvalidSeries::Matrices(message));
     }
     let is_last =
         |cells: &[String]| cells.iter().map(|cell| sheet.number(cell)).eq([0.0, 0.0, 0.0, 1.0].map(Some));
