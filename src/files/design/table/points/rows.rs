@@ -2,11 +2,11 @@
 
 use nalgebra::Point3;
 
-use super::columns::CoordinateColumns;
+use super::columns::{CoordinateColumns, unit_of};
 use super::words::{axis_of, bodies_of_words, body_of_word, told_apart};
 use super::{InvalidPointTable, LEAST_NUMBERS};
 use crate::design::keys::LARGEST;
-use crate::design::table::header::plain;
+use crate::design::table::header::{length_unit, plain, units_in_title};
 use crate::design::table::sheet::{CellTable, SheetRow};
 use platform::manipulator::Body;
 
@@ -39,6 +39,9 @@ pub(super) fn data_rows<'a>(
             guesses.push(format!("Line {}, `{title}`, is a factor of the numbers below it.", row.line));
             scale = factor;
             continue;
+        }
+        if numbers == 0 && !rows.is_empty() {
+            same_unit(sheet, row)?;
         }
         let named = row.cells.iter().find_map(|c| body_of_word(&plain(c)));
         let coordinates = row.cells.iter().filter(|c| axis_of(&plain(c)).is_some()).count();
@@ -77,6 +80,26 @@ pub(super) fn data_rows<'a>(
         }
     }
     Ok(rows)
+}
+
+/// Refuses a title below numbers that states another unit than theirs.
+fn same_unit(sheet: &CellTable, title: &SheetRow) -> Result<(), InvalidPointTable> {
+    let names = title.cells.iter().filter(|cell| axis_of(&plain(cell)).is_some());
+    let text = title.cells.join(" ");
+    let Some(stated) =
+        units_in_title(&text).0.or_else(|| names.into_iter().find_map(|name| length_unit(name)))
+    else {
+        return Ok(());
+    };
+    let above = sheet.header.as_ref().map_or(Ok(None), |header| unit_of(header))?.or(sheet.length_unit);
+    if above == Some(stated) {
+        return Ok(());
+    }
+    let above = above.map_or_else(|| "have no unit".into(), |unit| format!("are in {unit}"));
+    Err(InvalidPointTable::Form(format!(
+        "line {}, `{text}`, says {stated}, and the numbers above it {above}: write all lengths in one unit",
+        title.line
+    )))
 }
 
 /// The point in three columns of a row.

@@ -347,6 +347,52 @@ fn units_of_a_table_are_taken_from_every_place_or_refused() {
 }
 
 #[test]
+fn bodies_in_different_units_are_refused() {
+    let rows = |list: [[f64; 3]; 6]| list.map(|p| p.map(|x| x.to_string()).join(",")).join("\n");
+    let blocks =
+        |base: &str, platform: &str| format!("{base}\n{}\n{platform}\n{}\n", rows(BASE), rows(PLATFORM));
+    let same = read(&blocks("Base [cm]", "Platform [cm]"));
+    assert!(is_meant(&same) && same.units.as_deref() == Some("cm"), "{:?}", same.guesses);
+    for (base, platform, part) in [
+        ("Base [mm]", "Platform [m]", "line 8, `Platform [m]`, says m, and the numbers above it are in mm"),
+        ("Base", "Platform, in m", "says m, and the numbers above it have no unit"),
+        ("x [mm],y [mm],z [mm]", "x [m],y [m],z [m]", "says m, and the numbers above it are in mm"),
+    ] {
+        let why = refusal(&blocks(base, platform));
+        assert!(why.contains(part), "{why}");
+    }
+}
+
+#[test]
+fn misspelt_bodies_are_recognised_and_named() {
+    let header = "platfrom_x,platfrom_y,platfrom_z,bsae_x,bsae_y,bsae_z\n";
+    let rows: String = (0..6)
+        .map(|i| {
+            [PLATFORM[i], BASE[i]].concat().iter().map(f64::to_string).collect::<Vec<_>>().join(",") + "\n"
+        })
+        .collect::<Vec<_>>()
+        .concat();
+    let table = read(&format!("{header}{rows}"));
+    assert!(is_meant(&table), "{:?}", table.guesses);
+    assert!(table.guesses.iter().any(|g| g == "`bsae_x` is read as base x."), "{:?}", table.guesses);
+}
+
+#[test]
+fn joints_on_posts_are_in_the_frame_of_their_body() {
+    let raised = six(",", "bx,by,bz,px,py,pz\n", |x| x.to_string()).replace(",0\n", ",12\n");
+    let table = read(&raised);
+    assert_eq!((table.home, table.legs[0].platform.z), (None, 12.0), "{:?}", table.guesses);
+}
+
+#[test]
+fn comments_behind_numbers_and_exponents_of_fortran_are_no_faults() {
+    let rows = six(" ", "bx by bz px py pz\n", |x| format!("{x:e}").replace('e', "D"));
+    let noted: String =
+        rows.lines().map(|line| format!("{line}  # leg of May 3\n")).collect::<Vec<_>>().concat();
+    assert!(is_meant(&read(&noted)));
+}
+
+#[test]
 fn columns_that_are_not_used_are_named_and_heights_are_z() {
     let with = |header: &str, more: &str| {
         let lines = six(",", "", |x| x.to_string());
