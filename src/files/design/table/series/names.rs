@@ -4,7 +4,8 @@ use crate::design::table::header::CellUnit;
 use platform::geom::AngleUnit;
 
 pub(super) fn is_time(name: &str) -> bool {
-    name.starts_with("time") || ["t", "ts", "tms", "sec", "seconds", "zeit", "zeits"].contains(&name)
+    ["time", "zeit", "temps", "tiempo", "tempo"].iter().any(|word| name.starts_with(word))
+        || ["t", "ts", "tms", "sec", "seconds"].contains(&name)
 }
 
 /// Whether a plain name is that of a travel, which is a length less the least one.

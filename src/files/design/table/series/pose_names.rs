@@ -5,13 +5,15 @@ use super::names::{angle_unit_of, without_angle_units};
 use platform::geom::{AngleUnit, ListedFrom, PoseConvention, RotationOrder};
 
 /// Names of the turn about x, in several languages.
-const ROLL_WORDS: [&str; 5] = ["roll", "rollen", "rollwinkel", "wanken", "roulis"];
+const ROLL_WORDS: [&str; 7] = ["roll", "rollen", "rollwinkel", "wanken", "roulis", "alabeo", "rollio"];
 
 /// Names of the turn about y.
-const PITCH_WORDS: [&str; 6] = ["pitch", "nick", "nicken", "nickwinkel", "stampfen", "tangage"];
+const PITCH_WORDS: [&str; 8] =
+    ["pitch", "nick", "nicken", "nickwinkel", "stampfen", "tangage", "cabeceo", "beccheggio"];
 
 /// Names of the turn about z.
-const YAW_WORDS: [&str; 5] = ["yaw", "gier", "gieren", "gierwinkel", "lacet"];
+const YAW_WORDS: [&str; 8] =
+    ["yaw", "gier", "gieren", "gierwinkel", "lacet", "gui\u{f1}ada", "guinada", "imbardata"];
 
 /// The columns of poses that names tell.
 pub(super) struct NamedPose {
@@ -122,6 +124,12 @@ pub(super) fn named_pose(
         columns.extend(frames.quaternion_order().written([w, x, y, z]));
         return Ok(Some(NamedPose { columns, frames, radians, guesses }));
     }
+    // letters of other conventions too, so that a stated order takes the columns as they stand
+    let greek = by_words([&["phi"], &["theta"], &["psi"]]).filter(|_| stated.rotation_order.is_none());
+    if roll.is_none() && greek.is_some() {
+        guesses.push("`phi`, `theta` and `psi` are roll, pitch and yaw.".into());
+    }
+    let roll = roll.or(greek);
     let Some(about) = roll.or(uvw).or(rotations) else { return Ok(None) };
     let shown = || about.map(|c| header[c].as_str()).join(", ");
     if stated.rotation_order.is_none() {

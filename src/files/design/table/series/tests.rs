@@ -128,6 +128,23 @@ fn poses_are_read_by_their_names() {
 }
 
 #[test]
+fn words_of_other_languages_and_greek_letters_name_angles() {
+    let meant = usual("10,20,30,1,2,3\n").rows[0].value;
+    for names in [
+        "gui\u{f1}ada;cabeceo;alabeo",
+        "imbardata;beccheggio;rollio",
+        "lacet;tangage;roulis",
+        "psi;theta;phi",
+    ] {
+        let found = usual(&format!("tiempo;x;y;z;{names}\n0,5;10;20;30;3;2;1\n"));
+        assert_eq!((found.rows[0].value, found.rows[0].time), (meant, Some(0.5)), "{names}");
+    }
+    let zxz = PoseConvention { rotation_order: "moving-zxz".parse().ok(), ..Default::default() };
+    let stated = poses("x,y,z,phi,theta,psi\n10,20,30,1,2,3\n", &zxz).rows[0].value;
+    assert_eq!(stated, zxz.read(&[10.0, 20.0, 30.0, 1.0, 2.0, 3.0], &home()).unwrap());
+}
+
+#[test]
 fn poses_with_lengths_are_read_by_names_and_by_places() {
     let read = |text: &str| {
         let stated = PoseConvention::default();
