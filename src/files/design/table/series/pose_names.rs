@@ -26,6 +26,9 @@ pub(super) struct NamedPose {
     pub(super) guesses: Vec<String>,
 }
 
+/// Greatest number of columns that are compared with each other.
+const MOST_COLUMNS: usize = 2000;
+
 /// The columns of nine entries `r11` to `r33`, or `r00` to `r22`, row by row, and of the fourth column if it is named so.
 fn matrix_columns(header: &[String]) -> Option<([usize; 9], Option<[usize; 3]>)> {
     let words: Vec<String> = header
@@ -59,6 +62,9 @@ pub(super) fn named_pose(
     names: &[String],
     stated: &PoseConvention,
 ) -> Result<Option<NamedPose>, InvalidSeries> {
+    if names.len() > MOST_COLUMNS {
+        return Ok(None);
+    }
     let names = without_angle_units(names);
     let column = |accepted: &[&str]| names.iter().position(|n| accepted.contains(&n.as_str()));
     let all = |list: [Option<usize>; 3]| -> Option<[usize; 3]> {
@@ -114,7 +120,8 @@ pub(super) fn named_pose(
     let roll = by_words([&ROLL_WORDS, &PITCH_WORDS, &YAW_WORDS]);
     let uvw = by_words([&["u"], &["v"], &["w"]]);
     let is_rotation = |stem: &&&str| {
-        ["r", "rot", "rotation", "rvec", "theta", "phi", "angle", "ang", "euler", "tilt"].contains(*stem)
+        ["r", "rot", "rvec", "theta", "phi", "angle", "angles", "ang", "tilt"].contains(*stem)
+            || ["rotation", "orientation", "euler", "attitude"].iter().any(|end| stem.ends_with(end))
     };
     let rotations = stems.iter().filter(is_rotation).find_map(|stem| with_stem(stem).1);
     if let (None, Some([w, x, y, z])) = (roll, by_stem.or_else(by_units).or_else(by_number)) {
