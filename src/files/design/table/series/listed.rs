@@ -155,7 +155,7 @@ impl Cells {
             ListValue::Named(_) => {}
             ListValue::List(_) => match (value.numbers(), value.rows()) {
                 (Some(list), _) => self.take_numbers(name, &list, stated),
-                (None, Some(rows)) => self.take_matrix(name, &rows),
+                (None, Some(rows)) => self.take_matrix(&rows),
                 (None, None) => self.holds_lists = true,
             },
         }
@@ -196,7 +196,7 @@ impl Cells {
         }
     }
 
-    fn take_matrix(&mut self, name: &str, rows: &[Vec<f64>]) {
+    fn take_matrix(&mut self, rows: &[Vec<f64>]) {
         let numbers = || rows.iter().flatten();
         match (rows.len(), rows[0].len()) {
             (3, 3) => {

@@ -224,12 +224,6 @@ fn read_rows<T>(
     Ok(TimeSeries { time_name, rows, frames: columns.frames, guesses })
 }
 
-/// Column names of leg lengths.
-const LENGTH_WORDS: [&str; 3] = ["leg", "len", "l"];
-/// Names of the turn about x, in several languages.
-const ROLL_WORDS: [&str; 5] = ["roll", "rollen", "rollwinkel", "wanken", "roulis"];
-/// Names of the turn about y.
-const PITCH_WORDS: [&str; 6] = ["pitch", "nick", "nicken", "nickwinkel", "stampfen", "tangage"];
 impl RowKind<'_> {
     /// The cells of a text, which may be a list of a program too.
     fn sheet(self, bytes: &[u8]) -> Result<CellTable, InvalidSeries> {
