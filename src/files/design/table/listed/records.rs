@@ -42,7 +42,7 @@ pub(in crate::design::table) fn records(
     }
     let (tokens, places) = tokens(text);
     let mut reader = Reader { tokens: &tokens, places: &places, at: 0, factor: None, depth: 0 };
-    let mut found: Vec<Record> = Vec::new();
+    let mut found: Vec<Vec<Record>> = Vec::new();
     let count = |record: &Record| if let ListValue::List(list) = &record.value { list.len() } else { 0 };
     while let Some(token) = reader.peek().cloned() {
         let begin = reader.at;
@@ -73,7 +73,7 @@ pub(in crate::design::table) fn records(
             {
                 return Err(Formula);
             }
-            found.extend(list);
+            found.push(list);
             continue;
         }
         if let (Token::Word(name), Some(Token::Open(_))) = (&token, tokens.get(begin + 1))
@@ -84,13 +84,15 @@ pub(in crate::design::table) fn records(
         reader.at = begin + 1;
         if token == Token::Open('{') {
             match reader.list('{').filter(is_known) {
-                Some(value) => found.push(Record { line, value }),
+                Some(value) => found.push(vec![Record { line, value }]),
                 None => reader.at = begin + 1,
             }
         }
     }
+    // a short row among others is a fault of the table, and not another list
+    let most = |list: &Vec<Record>| list.iter().map(count).max().unwrap_or(0);
     let kept = |keeps: &dyn Fn(usize) -> bool| -> Vec<Record> {
-        found.iter().filter(|record| keeps(count(record))).cloned().collect()
+        found.iter().filter(|list| keeps(most(list))).flatten().cloned().collect()
     };
     let rows = kept(&|n| n == MATRIX_ROW.0);
     let kinds =

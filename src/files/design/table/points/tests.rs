@@ -136,7 +136,7 @@ fn nothing_is_taken_for_a_coordinate_that_is_none() {
     let alone = "leg,base_radius,base_z\n".to_owned() + &"1,2,3\n".repeat(6);
     assert!(refusal(&alone).contains("those of angles none"));
     let rows = |list: [[f64; 3]; 6]| list.map(|p| format!("{p:?}")).join(",");
-    let three = format!("a = [{}]\nb = [{}]\nc = [{}]\n", rows(BASE), rows(PLATFORM), rows(BASE));
+    let three = format!("u = [{}]\nv = [{}]\nw = [{}]\n", rows(BASE), rows(PLATFORM), rows(BASE));
     assert!(refusal(&three).contains("3 lists of six points"));
     // arithmetic is not evaluated
     assert!(PointTable::read(b"a = [[1*2, 3, 0], [1, 2, 3]]\nb = [[1, 2, 3]]").is_err());
@@ -387,8 +387,7 @@ fn joints_on_posts_are_in_the_frame_of_their_body() {
 #[test]
 fn comments_behind_numbers_and_exponents_of_fortran_are_no_faults() {
     let rows = six(" ", "bx by bz px py pz\n", |x| format!("{x:e}").replace('e', "D"));
-    let noted: String =
-        rows.lines().map(|line| format!("{line}  # leg of May 3\n")).collect::<Vec<_>>().concat();
+    let noted = rows.replace("D0\n", "D0  # leg of May 3\n");
     assert!(is_meant(&read(&noted)));
 }
 

@@ -104,8 +104,10 @@ fn table(
     if named.is_empty() {
         return (None, rows);
     }
-    let (header, rows) = table_of(named);
-    (Some(header), rows)
+    let (header, mut table) = table_of(named);
+    // a list among objects has no columns of theirs, and is refused as a row without values
+    table.extend(rows.into_iter().map(|row| SheetRow { cells: Vec::new(), ..row }));
+    (Some(header), table)
 }
 
 /// The cells of an object with the names of their columns.
