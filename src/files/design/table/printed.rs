@@ -10,6 +10,10 @@ fn columns(line: &str) -> Option<(usize, usize)> {
     }
 }
 
+fn is_numbers(line: &str) -> bool {
+    line.split_whitespace().all(|cell| cell.parse::<f64>().is_ok())
+}
+
 /// The text with groups of columns side by side; `None` without such groups.
 pub(super) fn joined(text: &str) -> Option<String> {
     if !text.lines().any(|line| columns(line).is_some_and(|(first, _)| first > 1)) {
@@ -25,7 +29,7 @@ pub(super) fn joined(text: &str) -> Option<String> {
             }
             (Some(_), _) => at = Some(begin),
             (None, _) if line.trim().is_empty() => {}
-            (None, Some(row)) if row < out.len() && line.starts_with(char::is_whitespace) => {
+            (None, Some(row)) if row < out.len() && is_numbers(line) => {
                 out[row] = format!("{} {}", out[row], line.trim());
                 at = Some(row + 1);
             }

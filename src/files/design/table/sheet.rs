@@ -389,7 +389,9 @@ pub(super) fn is_list(text: &str) -> bool {
     let content = text.lines().find(|line| !line.trim().is_empty() && !is_comment(line));
     // units in a header are in brackets too: a list begins with a bracket, or with a name and its value
     content.is_some_and(|content| {
+        let word = |c: char| c.is_alphanumeric() || "_.".contains(c);
         content.trim_start().starts_with(opens)
+            || content.trim_start().trim_start_matches(word).starts_with("([")
             || content.split_once(['=', ':']).is_some_and(|(_, value)| value.trim_start().starts_with(opens))
     })
 }
@@ -465,8 +467,12 @@ fn records(text: &str, separator: char, least: usize) -> Result<Vec<SheetRow>, I
     let mut chars = text.chars().peekable();
     let blank = |c: char| c != '\n' && c != '\r' && c.is_whitespace();
     let ends = |c: char| if separator == ' ' { blank(c) } else { c == separator };
-    let finish =
-        |cell: &mut String, row: &mut SheetRow| row.cells.push(std::mem::take(cell).trim().to_string());
+    let finish = |cell: &mut String, row: &mut SheetRow| {
+        let whole = std::mem::take(cell);
+        let inner = whole.trim();
+        let marked = inner.strip_prefix('\'').and_then(|inner| inner.strip_suffix('\''));
+        row.cells.push(marked.unwrap_or(inner).to_string());
+    };
     while let Some(c) = chars.next() {
         match c {
             '"' if quoted.is_some() && chars.peek() == Some(&'"') => {
@@ -555,6 +561,8 @@ mod tests {
             "  1.5   -2 300.25\n4 5.5 0\n\n",
             "1,5 -2,0 300,25\n4,0 5,5 0,0\n",
             "\"1.5\",\"-2\",\"300.25\"\n4,\"5.5\",0\n",
+            "'1.5','-2','300.25'\n'4',5.5,0\n",
+            "array([[1.5, -2, 300.25],\n       [4. , 5.5, 0. ]])",
             "\"1,5\",\"-2\",\"300,25\"\n4,\"5,5\",0\n",
             "1.5,\u{2212}2,+300.25,,\n,,,,\n4,5.5,0,,\n",
             "1.5e0,-2.0,3.0025E2\n# between\n4,5.5,0 \n% after\n",

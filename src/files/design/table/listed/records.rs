@@ -2,7 +2,7 @@
 
 use super::reader::Reader;
 use super::tokens::{Token, computes, tokens};
-use super::{ListValue, named_values};
+use super::{ListValue, NamedValues, named_values};
 use crate::design::table::header::CellUnit;
 use crate::design::table::sheet::SheetRow;
 
@@ -33,8 +33,13 @@ pub(in crate::design::table) fn records(
     text: &str,
     is_known: &dyn Fn(&ListValue) -> bool,
 ) -> Result<Option<Vec<Record>>, Formula> {
-    // assignments, or a mapping without brackets
-    if let Some(named) = named_values(text, &mut Vec::new()) {
+    // assignments, or a mapping without brackets; names that come again are those of several objects
+    let is_one = |named: &NamedValues| {
+        let mut names: Vec<&String> = named.values.iter().map(|(name, _)| name).collect();
+        names.sort_unstable();
+        names.windows(2).all(|pair| pair[0] != pair[1])
+    };
+    if let Some(named) = named_values(text, &mut Vec::new()).filter(is_one) {
         let value = ListValue::Named(named.values);
         if is_known(&value) {
             return Ok(Some(vec![Record { line: 1, value }]));

@@ -315,6 +315,8 @@ fn legs_along_the_columns_are_turned() {
             let title = if k == 0 { format!("{body} joints\n") } else { String::new() };
             format!("{title}{},", axis(k))
         }),
+        // the print of a program
+        rows(&|body, k| if k == 0 { format!("\n{} =\n\n", body.of(("B", "P"))) } else { String::new() }),
         // only so both bodies are flat
         rows(&|_, _| String::new()),
         "joint,B1,B2,B3,B4,B5,B6,P1,P2,P3,P4,P5,P6\n".to_owned()

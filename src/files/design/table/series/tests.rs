@@ -391,6 +391,17 @@ fn poses_in_lists_and_objects_of_programs_are_read() {
         let found = usual(text);
         assert!(apart(&found.rows[0].value, &meant) < 1e-12, "{text}\n{:?}", found.guesses);
     }
+    let object = "{\"x\": 10, \"y\": 20, \"z\": 30, \"roll\": 1, \"pitch\": 2, \"yaw\": 3}";
+    for text in [
+        format!("[{object}, {object}, {object}]"),
+        format!("{object}\n{object}\n{object}\n"),
+        format!("{{\"poses\": [{object}, {object}, {object}]}}"),
+        "[[10, 20, 30, 1, 2, 3], [10, 20, 30, 1, 2, 3], [10, 20, 30, 1, 2, 3]]".into(),
+        "{\"x\": [10, 10, 10], \"y\": [20, 20, 20], \"z\": [30, 30, 30], \"roll\": [1, 1, 1], \"pitch\": [2, 2, 2], \"yaw\": [3, 3, 3]}".into(),
+    ] {
+        let all: Vec<Pose> = usual(&text).rows.into_iter().map(|row| row.value).collect();
+        assert_eq!(all, [meant; 3], "{text}");
+    }
     let timed = usual("{\"poses\": [{\"t\": 0.5, \"pose\": [10, 20, 30, 1, 2, 3]}]}");
     assert_eq!((timed.rows[0].time, timed.rows[0].value), (Some(0.5), meant));
     let text = "{\"poses\": [\n {\"x\": 10, \"y\": 20, \"z\": 30, \"rx\": 1, \"ry\": 2, \"rz\": 3}]}";
