@@ -5,6 +5,7 @@ mod listed;
 mod matrices;
 mod names;
 mod pose_names;
+mod upright;
 
 use thiserror::Error;
 
@@ -193,8 +194,10 @@ fn read_rows<T>(
 ) -> Result<TimeSeries<T>, InvalidSeries> {
     let mut sheet = kind.sheet(bytes)?;
     let mut guesses = std::mem::take(&mut sheet.guesses);
-    if let RowKind::Poses { .. } = kind {
-        matrices::to_rows(&mut sheet, &mut guesses)?;
+    match kind {
+        RowKind::Poses { .. } => matrices::to_rows(&mut sheet, &mut guesses)?,
+        RowKind::Six(SeriesKind::Lengths) => upright::turn(&mut sheet, &LENGTH_WORDS, &mut guesses),
+        RowKind::Six(SeriesKind::Angles) => upright::turn(&mut sheet, &ANGLE_WORDS, &mut guesses),
     }
     let header = sheet.header.clone().unwrap_or_default();
     let columns = kind.columns(&sheet, units, &mut guesses)?;

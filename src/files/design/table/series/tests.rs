@@ -233,6 +233,18 @@ fn legs_may_count_from_0_and_travels_are_refused() {
 }
 
 #[test]
+fn rows_may_be_legs() {
+    let rows =
+        "leg_2;2;20;200\nleg_1;1;10;100\nleg_3;3;30;300\nleg_4;4;40;400\nleg_5;5;50;500\nleg_6;6;60;600\n";
+    let found = read(SeriesKind::Lengths, rows);
+    let values: Vec<Vec<f64>> = found.rows.into_iter().map(|row| row.value).collect();
+    let meant = [1.0, 10.0, 100.0].map(|x| [1.0, 2.0, 3.0, 4.0, 5.0, 6.0].map(|leg| leg * x).to_vec());
+    assert_eq!(values, meant);
+    let timed = read(SeriesKind::Lengths, &format!("time;0,5;1,5;2,5\n{rows}"));
+    assert_eq!((timed.rows[2].time, timed.rows[2].value[1]), (Some(2.5), 200.0));
+}
+
+#[test]
 fn every_bad_row_is_named() {
     let text = "t,1,2,3,4,5,6\n0,1,2,3,4,5,6\n1,2,3\n?,1,2,3,4,5,6\n3,1,2,x,4,5,6\n";
     let Err(why) =
