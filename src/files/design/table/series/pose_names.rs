@@ -29,7 +29,8 @@ pub(super) struct NamedPose {
 /// Greatest number of columns that are compared with each other.
 const MOST_COLUMNS: usize = 2000;
 
-/// The columns of nine entries `r11` to `r33`, or `r00` to `r22`, row by row, and of the fourth column if it is named so.
+/// The columns of nine entries `r11` to `r33`, or `r00` to `r22`, row by row. The second part is the fourth column, if
+/// it is named so.
 fn matrix_columns(header: &[String]) -> Option<([usize; 9], Option<[usize; 3]>)> {
     let words: Vec<String> = header
         .iter()
