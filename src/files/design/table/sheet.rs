@@ -69,8 +69,31 @@ impl CellTable {
     /// [`InvalidSheet`].
     pub(super) fn read(bytes: &[u8], least: usize) -> Result<Self, InvalidSheet> {
         let decoded = decode(bytes).map_err(InvalidSheet::Encoding)?;
-        let mut guesses: Vec<String> = decoded.guess.into_iter().collect();
-        let mut text = decoded.text;
+        let guesses: Vec<String> = decoded.guess.into_iter().collect();
+        let packed = is_workbook(bytes);
+        let found = Self::read_text(decoded.text.clone(), packed, least, guesses.clone());
+        if !matches!(found, Err(InvalidSheet::NoNumbers(_))) || !decoded.text.contains(['(', '=']) {
+            return found;
+        }
+        // `B1 (310, -80, 0)` and `B1: x=310 y=-80 z=0`
+        let separated = decoded.text.chars().map(|c| match c {
+            c if opens(c) => ',',
+            ']' | ')' | '}' | '=' => ' ',
+            c => c,
+        });
+        let again = Self::read_text(separated.collect(), packed, least, guesses);
+        again.map_err(|_| InvalidSheet::NoNumbers(least)).map(|mut sheet| {
+            sheet.guesses.push("Brackets and equal signs are read as separators.".into());
+            sheet
+        })
+    }
+
+    fn read_text(
+        mut text: String,
+        packed: bool,
+        least: usize,
+        mut guesses: Vec<String>,
+    ) -> Result<Self, InvalidSheet> {
         if let Some(joined) = printed::joined(&text) {
             guesses.push("Groups of columns that were printed below each other are joined.".into());
             text = joined;
@@ -111,7 +134,7 @@ impl CellTable {
         let Some((_, separator, decimal, records)) = best else {
             return Err(fault.unwrap_or(InvalidSheet::NoNumbers(least)));
         };
-        if separator != ',' && !is_workbook(bytes) {
+        if separator != ',' && !packed {
             let name = SEPARATORS.iter().find(|(c, _)| *c == separator).map_or("", |(_, name)| name);
             guesses.push(format!("The columns are separated by {name}."));
         }
@@ -389,10 +412,16 @@ pub(super) fn is_list(text: &str) -> bool {
     let content = text.lines().find(|line| !line.trim().is_empty() && !is_comment(line));
     // units in a header are in brackets too: a list begins with a bracket, or with a name and its value
     content.is_some_and(|content| {
-        let word = |c: char| c.is_alphanumeric() || "_.".contains(c);
-        content.trim_start().starts_with(opens)
-            || content.trim_start().trim_start_matches(word).starts_with("([")
-            || content.split_once(['=', ':']).is_some_and(|(_, value)| value.trim_start().starts_with(opens))
+        let begins = |text: &str| {
+            let word = |c: char| c.is_alphanumeric() || "_.".contains(c);
+            text.trim_start().starts_with(opens)
+                || text.trim_start().trim_start_matches(word).starts_with("([")
+        };
+        // `[base]` is a section of settings
+        let inner = content.trim().strip_prefix('[').and_then(|inner| inner.strip_suffix(']'));
+        let is_section = inner.is_some_and(|inner| !inner.contains(|c: char| c.is_ascii_digit() || opens(c)));
+        !is_section
+            && (begins(content) || content.split_once(['=', ':']).is_some_and(|(_, value)| begins(value)))
     })
 }
 

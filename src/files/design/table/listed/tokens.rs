@@ -63,6 +63,8 @@ pub(super) fn tokens(text: &str) -> (Vec<Token>, Vec<TokenPlace>) {
                 // a transposed matrix is known by its shape
                 '\'' if matches!(out.last(), Some(Token::Close(_))) => {}
                 '.' if rest.starts_with(".T") && matches!(out.last(), Some(Token::Close(_))) => skip = 2,
+                // `.x = 1` names a member
+                '.' if rest[1..].starts_with(char::is_alphabetic) => {}
                 '*' => out.push(Token::Times),
                 '#' | '%' => break,
                 '/' if !rest.starts_with("//") && !rest.starts_with("/*") => out.push(Token::Over),
@@ -108,9 +110,15 @@ pub(super) fn tokens(text: &str) -> (Vec<Token>, Vec<TokenPlace>) {
                     }
                 }
                 _ if c.is_alphabetic() || c == '_' => {
-                    skip = rest
-                        .find(|c: char| !(c.is_alphanumeric() || "_.-".contains(c)))
-                        .unwrap_or(rest.len());
+                    // `Eigen::Vector3d` is one name
+                    let in_name = |(at, c): (usize, char)| {
+                        let scope = c == ':'
+                            && (rest[at..].starts_with("::") || rest[..at].ends_with(':'))
+                            && !rest[at..].starts_with(":=");
+                        c.is_alphanumeric() || "_.-".contains(c) || scope
+                    };
+                    skip =
+                        rest.char_indices().find(|place| !in_name(*place)).map_or(rest.len(), |(at, _)| at);
                     out.push(Token::Word(rest[..skip].trim_end_matches(['.', '-']).into()));
                 }
                 // arithmetic, or no list at all

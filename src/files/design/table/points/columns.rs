@@ -3,10 +3,10 @@
 use super::InvalidPointTable;
 use super::rows::{PointRow, not_a_number};
 use super::words::{
-    LEG_WORDS, ROW_WORDS, axis_of, bodies_of_words, height_of, misspelt_axis, same_body, stem,
+    LEG_WORDS, ROW_WORDS, axis_of, bodies_of_words, body_of_word, height_of, misspelt_axis, same_body, stem,
 };
-use crate::design::table::header::{length_unit, plain};
-use crate::design::table::sheet::CellTable;
+use crate::design::table::header::{length_unit, plain, units_in_title};
+use crate::design::table::sheet::{CellTable, SheetRow};
 use platform::manipulator::Body;
 
 /// Columns of the coordinates of one end of a leg; a missing z is zero.
@@ -40,6 +40,21 @@ pub(super) fn unit_of(header: &[String]) -> Result<Option<&'static str>, Invalid
             "the column `{first}` is in {one} and `{name}` in {other}: write all lengths in one unit"
         ))),
     }
+}
+
+/// Makes a header that names a body and no coordinates, such as `Platform joints, in mm`, the title of the rows below.
+pub(super) fn header_as_title(sheet: &mut CellTable) {
+    let Some(header) = sheet.header.take_if(|header| {
+        let words: Vec<String> = header.iter().map(|cell| plain(cell)).collect();
+        let said: Vec<Body> = words.iter().filter_map(|word| body_of_word(word)).collect();
+        let is_body = said.first().is_some_and(|body| said.iter().all(|other| other == body));
+        is_body && PointColumns::named(header, &mut Vec::new()).is_none()
+    }) else {
+        return;
+    };
+    let line = sheet.rows.first().map_or(1, |row| row.line.saturating_sub(1).max(1));
+    sheet.length_unit = sheet.length_unit.or(units_in_title(&header.join(" ")).0);
+    sheet.rows.insert(0, SheetRow { line, cells: header });
 }
 
 impl PointColumns {

@@ -116,6 +116,7 @@ impl PointTable {
         let mut guesses = std::mem::take(&mut sheet.guesses);
         upright::turn(&mut sheet, &mut guesses);
         polar::to_coordinates(&mut sheet, &text, &mut guesses)?;
+        columns::header_as_title(&mut sheet);
         let rows = data_rows(&sheet, &mut guesses)?;
         let unit = sheet.header.as_ref().map_or(Ok(None), |header| unit_of(header))?;
         if let (Some(of_columns), Some(stated)) = (unit, sheet.length_unit)

@@ -380,6 +380,28 @@ fn misspelt_bodies_are_recognised_and_named() {
 }
 
 #[test]
+fn titles_of_bodies_and_brackets_are_no_numbers() {
+    let rows = |list: [[f64; 3]; 6]| list.map(|p| p.map(|x| x.to_string()).join(" ")).join("\n");
+    let titled = format!(
+        "PLATFORM JOINTS (platform frame, in cm)\n{}\nBASE JOINTS (base frame, in cm)\n{}\n",
+        rows(PLATFORM),
+        rows(BASE)
+    );
+    let table = read(&titled);
+    assert!(is_meant(&table), "{:?}", table.guesses);
+    assert_eq!(table.units.as_deref(), Some("cm"));
+    let name = |body: Body, i: usize| format!("{}{}", body.of(("B", "P")), i + 1);
+    for text in [
+        twelve(|body, i, p| format!("{} ({})", name(body, i), p.join(", "))),
+        twelve(|body, i, p| format!("{}: x={} y={} z={}", name(body, i), p[0], p[1], p[2])),
+    ] {
+        let table = read(&text);
+        assert!(is_meant(&table), "{text}\n{:?}", table.guesses);
+    }
+    assert!(refusal("[base]\njoint1 = 1, 2, 3\njoint2 = 1, 2, 3\n").contains("is not a number"));
+}
+
+#[test]
 fn joints_on_posts_are_in_the_frame_of_their_body() {
     let raised = six(",", "bx,by,bz,px,py,pz\n", |x| x.to_string()).replace(",0\n", ",12\n");
     let table = read(&raised);

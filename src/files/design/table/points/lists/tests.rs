@@ -27,6 +27,14 @@ fn lists_of_programs_are_read() {
         lists(comma, |b, rows| {
             format!("static const float {}_pts[6][3] = {{\n{{{}}}\n}};", name(b), rows.join("},\n{"))
         }),
+        lists(comma, |b, rows| {
+            let points = rows.join("), Eigen::Vector3d(");
+            format!("std::vector<Eigen::Vector3d> {} = {{Eigen::Vector3d({points})}};", name(b))
+        }),
+        lists(
+            |p| format!(".x = {}, .y = {}, .z = {}", p[0], p[1], p[2]),
+            |b, rows| format!("const Joint {}[6] = {{{{{}}}}};", name(b), rows.join("}, {")),
+        ),
         lists(comma, |b, rows| format!("{} = [Vec3({})]", name(b), rows.join("),\nVec3("))),
         lists(blank, |b, rows| format!("{} = [{}];", name(b), rows.join(";\n  "))),
         lists(blank, |b, rows| format!("{} = [{}];", name(b), rows.join("\n  "))),
