@@ -98,6 +98,10 @@ impl CellTable {
             guesses.push("Groups of columns that were printed below each other are joined.".into());
             text = joined;
         }
+        if let Some(rows) = named_rows(&text, least) {
+            guesses.push("The names before `=` are the first cells of their rows.".into());
+            text = rows;
+        }
         if let Some(lines) = bracketed(&text) {
             guesses.push("Each innermost pair of brackets is read as a row.".into());
             text = lines;
@@ -459,6 +463,24 @@ fn bracketed(text: &str) -> Option<String> {
         }
     }
     Some(out)
+}
+
+/// Rows `B1 = 310, -80, 0` with their names as cells; `None` if fewer than two lines have this form.
+fn named_rows(text: &str, least: usize) -> Option<String> {
+    let row = |line: &str| {
+        let (name, values) = line.split_once('=')?;
+        let is_name = name.trim().chars().all(|c| c.is_alphanumeric() || "_.- ".contains(c));
+        let separates = |c: char| c.is_whitespace() || ";,".contains(c);
+        let numbers = values.split(separates).filter(|cell| number(cell, '.').is_some()).count();
+        let separator = [';', ','].into_iter().find(|c| values.contains(*c)).unwrap_or(' ');
+        (is_name && !name.trim().is_empty() && numbers >= least.max(2))
+            .then(|| format!("{}{separator}{}", name.trim(), values.trim()))
+    };
+    if text.lines().filter_map(row).nth(1).is_none() {
+        return None;
+    }
+    let lines: Vec<String> = text.lines().map(|line| row(line).unwrap_or_else(|| line.to_owned())).collect();
+    Some(lines.join("\n"))
 }
 
 /// The text without comments behind the numbers of a line; lines keep their places.

@@ -43,7 +43,9 @@ pub(super) fn data_rows<'a>(
         if numbers == 0 && !rows.is_empty() {
             same_unit(sheet, row)?;
         }
-        let named = row.cells.iter().find_map(|c| body_of_word(&plain(c)));
+        // `[base]` is a section of settings
+        let bare = |cell: &String| plain(cell.trim_matches(|c| "[]".contains(c)));
+        let named = row.cells.iter().find_map(|c| body_of_word(&bare(c)));
         let coordinates = row.cells.iter().filter(|c| axis_of(&plain(c)).is_some()).count();
         let matrix = title.strip_suffix('=').or(title.strip_suffix(':')).map(str::trim);
         match (named, matrix) {

@@ -30,7 +30,10 @@ pub(super) fn read(text: &str) -> Option<Result<PointTable, InvalidPointTable>> 
         .or_else(|| bodies::numbered_points(&values, &mut guesses).map(Ok))
         .or_else(|| bodies::legs(&values, &mut guesses).map(Ok))
         .or_else(|| bodies::both_in_one(&values).map(Ok))
-        .or_else(|| bodies::polar(&values, text, &mut guesses))?;
+        .or_else(|| bodies::polar(&values, text, &mut guesses));
+    let Some(bodies) = bodies else {
+        return (!computed.is_empty() && is_list(text)).then_some(Err(InvalidPointTable::Computed));
+    };
     if !computed.is_empty() {
         if let Ok([first, second]) = &bodies
             && !first.name.is_empty()

@@ -212,6 +212,8 @@ fn values_of_programs_beside_the_joints_are_told_apart() {
     // the base is computed, and other lists are not taken for it
     let computed = format!("B = r * [cos(t); sin(t)];\nP = [{platform}];\nlim = {limits};\n");
     assert!(refusal(&computed).contains("programs are not run"), "{}", refusal(&computed));
+    let shifted = format!("B = np.array({BASE:?}) + np.array([0, 0, 10])\nP = np.array({PLATFORM:?})\n");
+    assert!(refusal(&shifted).contains("programs are not run"), "{}", refusal(&shifted));
     let halves = read(&format!("B = [{base}]/2;\nP = 2*[{platform}];\n"));
     assert_eq!((halves.legs[3].base.x, halves.legs[3].platform.x), (-200.74 / 2.0, -195.63 * 2.0));
     assert!(!refusal(&format!("B = [{base}] + 5;\nP = [{platform}];\n")).is_empty());
