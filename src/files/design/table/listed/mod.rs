@@ -111,7 +111,13 @@ pub(super) fn stated_units(
     text: &str,
 ) -> (Option<&'static str>, Option<AngleUnit>, Option<String>) {
     let comments = text.lines().filter_map(|line| {
-        let at = line.find(['#', '%']).or_else(|| line.find("//")).or_else(|| line.find("/*"))?;
+        // a line of a block of C begins with an asterisk
+        let in_block = || line.trim_start().starts_with("* ").then_some(0);
+        let at = line
+            .find(['#', '%'])
+            .or_else(|| line.find("//"))
+            .or_else(|| line.find("/*"))
+            .or_else(in_block)?;
         Some(units_in_title(&line[at..]))
     });
     let of_comments =

@@ -68,6 +68,14 @@ fn rotation(word: &str, value: &ListValue) -> Option<Pose> {
     PoseConvention::default().read(&matrix, &Pose::identity()).ok()
 }
 
+/// A rotation matrix and a position in one list whose name ends in `home`.
+fn home_pose(word: &str, value: &ListValue) -> Option<Pose> {
+    let ListValue::List(parts) = value else { return None };
+    let [turn, position] = &parts[..] else { return None };
+    let [x, y, z] = position.numbers().filter(|_| word.ends_with("home"))?[..] else { return None };
+    Some(Pose { position: [x, y, z].into(), ..rotation("rotation", turn)? })
+}
+
 fn table(
     bodies: &[ListedBody; 2],
     values: &[(String, ListValue)],
@@ -109,6 +117,11 @@ fn table(
             guesses
                 .push(format!("`{name}` is the place of the platform at home: x = {x}, y = {y}, z = {z}."));
             home = Some(Pose::new(position, Angles::default()));
+            used.push(k);
+        }
+        if let Some(pose) = home_pose(&word, value).filter(|_| home.is_none()) {
+            guesses.push(format!("`{name}` is the rotation and the position of the platform at home."));
+            home = Some(pose);
             used.push(k);
         }
         if let Some(pose) = rotation(&word, value).filter(|_| turn.is_none()) {
