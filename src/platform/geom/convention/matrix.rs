@@ -35,7 +35,10 @@ fn placed(r: &Matrix3<f64>, p: &Vector3<f64>) -> Result<Pose, InvalidPose> {
 /// Whether sixteen numbers are a 4 x 4 matrix column by column (`true`) or row by row; `None` if they are both, without
 /// a position, or neither.
 #[must_use]
-pub fn is_by_columns(numbers: &[f64; 16]) -> Option<bool> {
+pub fn is_by_columns(numbers: &[f64]) -> Option<bool> {
+    if numbers.len() != 16 {
+        return None;
+    }
     let last = |list: [usize; 3]| list.iter().all(|k| numbers[*k].abs() <= 0.0);
     let ends = numbers[15].to_bits() == 1.0_f64.to_bits();
     match (ends && last([12, 13, 14]), ends && last([3, 7, 11])) {
@@ -46,7 +49,7 @@ pub fn is_by_columns(numbers: &[f64; 16]) -> Option<bool> {
 }
 
 /// The pose of a 4 x 4 matrix. A matrix column by column is known by its zeros.
-pub(super) fn of_sixteen(numbers: &[f64; 16]) -> Result<Pose, InvalidPose> {
+pub(super) fn of_sixteen(numbers: &[f64]) -> Result<Pose, InvalidPose> {
     let mut m = Matrix4::from_row_slice(numbers);
     if is_by_columns(numbers) == Some(true) {
         m.transpose_mut();
@@ -65,7 +68,7 @@ fn of_rows(m: &Matrix4<f64>) -> Result<Pose, InvalidPose> {
 ///
 /// # Errors
 /// Three numbers beside nine of a matrix: rows and columns cannot be told apart.
-pub(super) fn of_twelve(numbers: &[f64; 12]) -> Result<Pose, InvalidPose> {
+pub(super) fn of_twelve(numbers: &[f64]) -> Result<Pose, InvalidPose> {
     let mut m = Matrix4::identity();
     for i in 0..3 {
         m.set_row(i, &RowVector4::from_row_slice(&numbers[4 * i..4 * i + 4]));
@@ -89,7 +92,7 @@ pub(super) fn of_twelve(numbers: &[f64; 12]) -> Result<Pose, InvalidPose> {
 }
 
 /// The reason why nine numbers are no pose.
-pub(super) fn without_position(numbers: &[f64; 9]) -> InvalidPose {
+pub(super) fn without_position(numbers: &[f64]) -> InvalidPose {
     let r = Matrix3::from_row_slice(numbers);
     InvalidPose::Text(match placed(&r, &Vector3::zeros()) {
         Ok(_) => {

@@ -465,21 +465,16 @@ impl PoseConvention {
             [x, y, z, a, b, c, d] => {
                 Pose::from_quaternion([x, y, z], self.quaternion_order().scalar_first([a, b, c, d]))?
             }
-            _ => {
-                if let Ok(matrix) = numbers.try_into() {
-                    matrix::of_twelve(matrix)?
-                } else if let Ok(matrix) = numbers.try_into() {
-                    matrix::of_sixteen(matrix)?
-                } else if let Ok(matrix) = numbers.try_into() {
-                    return Err(matrix::without_position(matrix));
-                } else {
-                    let message = format!(
-                        "{} values instead of six or seven, or twelve or sixteen of a matrix",
-                        numbers.len()
-                    );
+            _ => match numbers.len() {
+                12 => matrix::of_twelve(numbers)?,
+                16 => matrix::of_sixteen(numbers)?,
+                9 => return Err(matrix::without_position(numbers)),
+                count => {
+                    let message =
+                        format!("{count} values instead of six or seven, or twelve or sixteen of a matrix");
                     return Err(InvalidPose::Text(message));
                 }
-            }
+            },
         };
         Ok(self.in_base_frame(&written, home))
     }
