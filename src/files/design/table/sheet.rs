@@ -476,9 +476,7 @@ fn named_rows(text: &str, least: usize) -> Option<String> {
         (is_name && !name.trim().is_empty() && numbers >= least.max(2))
             .then(|| format!("{}{separator}{}", name.trim(), values.trim()))
     };
-    if text.lines().filter_map(row).nth(1).is_none() {
-        return None;
-    }
+    text.lines().filter_map(row).nth(1)?;
     let lines: Vec<String> = text.lines().map(|line| row(line).unwrap_or_else(|| line.to_owned())).collect();
     Some(lines.join("\n"))
 }

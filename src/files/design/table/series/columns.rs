@@ -70,10 +70,9 @@ impl RowKind<'_> {
         };
         let angles: &[usize] = match self {
             Self::Six(SeriesKind::Angles) => taken,
-            Self::Six(SeriesKind::Lengths) => &[],
             // three angles, and neither a quaternion nor a matrix
             Self::Poses { .. } if self.numbers_of_pose(taken.len()) == 6 => &taken[3..6],
-            Self::Poses { .. } => &[],
+            Self::Six(SeriesKind::Lengths) | Self::Poses { .. } => &[],
         };
         let is_read_in_degrees = values.is_none() && frames.angles.is_none();
         if matches!(self, Self::Six(_)) || is_read_in_degrees {

@@ -115,7 +115,7 @@ fn table(
 struct Cells {
     /// Names of lists of six numbers that are numbered columns.
     words: &'static [&'static str],
-    cells: Vec<(String, String)>,
+    named: Vec<(String, String)>,
     /// Whether there are lists of other lists or objects, which may be the poses.
     holds_lists: bool,
     guesses: Vec<String>,
@@ -127,7 +127,7 @@ impl Cells {
     }
 
     fn names(&self) -> Vec<String> {
-        self.cells.iter().map(|(name, _)| name.clone()).collect()
+        self.named.iter().map(|(name, _)| name.clone()).collect()
     }
 
     /// The cells of a pose: a pose in one list needs nothing but its time and lengths.
@@ -138,10 +138,10 @@ impl Cells {
             }
         }
         let in_list = |name: &str| plain(name).starts_with(POSE_NUMBER);
-        if !self.cells.iter().any(|(name, _)| in_list(name)) {
-            return self.cells;
+        if !self.named.iter().any(|(name, _)| in_list(name)) {
+            return self.named;
         }
-        let (pose, rest): (Vec<_>, Vec<_>) = self.cells.into_iter().partition(|(name, _)| in_list(name));
+        let (pose, rest): (Vec<_>, Vec<_>) = self.named.into_iter().partition(|(name, _)| in_list(name));
         let is_length = |name: &str| {
             let word = plain(name);
             self.words.iter().any(|own| word.strip_suffix(|c: char| c.is_ascii_digit()) == Some(own))
@@ -153,7 +153,7 @@ impl Cells {
     fn take(&mut self, name: &str, value: &ListValue, stated: &PoseConvention) {
         match value {
             ListValue::Number(x) => self.push(name, *x),
-            ListValue::Text(text) => self.cells.push((name.to_owned(), text.clone())),
+            ListValue::Text(text) => self.named.push((name.to_owned(), text.clone())),
             ListValue::Named(_) => {}
             ListValue::List(_) => match (value.numbers(), value.rows()) {
                 (Some(list), _) => self.take_numbers(name, &list, stated),
@@ -164,7 +164,7 @@ impl Cells {
     }
 
     fn push(&mut self, name: &str, x: f64) {
-        self.cells.push((name.to_owned(), format!("{x:?}")));
+        self.named.push((name.to_owned(), format!("{x:?}")));
     }
 
     fn take_numbers(&mut self, name: &str, list: &[f64], stated: &PoseConvention) {

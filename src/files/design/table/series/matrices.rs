@@ -63,7 +63,7 @@ fn lines_of_matrices(sheet: &CellTable) -> Result<Option<Vec<SheetRow>>, Invalid
     if lines.len() < 3 || lines.iter().any(|(_, cells)| cells.len() != width) {
         return Ok(None);
     }
-    if width == 3 && lines.len() % 3 == 0 {
+    if width == 3 && lines.len().is_multiple_of(3) {
         return Err(InvalidSeries::Matrices(
             "the lines of three numbers are rotation matrices without positions, or positions without rotations".into(),
         ));
@@ -81,10 +81,10 @@ fn lines_of_matrices(sheet: &CellTable) -> Result<Option<Vec<SheetRow>>, Invalid
         let last: Vec<Option<f64>> = block.iter().map(|(_, cells)| sheet.number(&cells[3])).collect();
         last.iter().copied().eq([0.0, 0.0, 0.0, 1.0].map(Some))
     };
-    let four =
-        lines.len() % 4 == 0 && lines.chunks(4).all(|block| is_last(&block[3].1) || ends_in_one(block));
+    let four = lines.len().is_multiple_of(4)
+        && lines.chunks(4).all(|block| is_last(&block[3].1) || ends_in_one(block));
     let height = if four { 4 } else { 3 };
-    if !four && (lines.len() % 3 != 0 || lines.iter().any(|(_, cells)| is_last(cells))) {
+    if !four && (!lines.len().is_multiple_of(3) || lines.iter().any(|(_, cells)| is_last(cells))) {
         return Err(InvalidSeries::Matrices(format!(
             "the {} lines of four numbers are neither 4 x 4 matrices, whose last line is 0 0 0 1, nor 3 x 4 matrices",
             lines.len()

@@ -336,7 +336,7 @@ fn matrices_are_poses_on_one_line_or_several() {
     let table = read_poses_with_lengths(with_lengths.as_bytes(), &PoseConvention::default(), &home(), "mm");
     let (pose, lengths) = table.unwrap().rows[0].value;
     assert!(apart(&pose, &meant) < 1e-12);
-    assert_eq!(lengths, [1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
+    assert_eq!(lengths.map(f64::to_bits), [1.0_f64, 2.0, 3.0, 4.0, 5.0, 6.0].map(f64::to_bits));
 }
 
 #[test]
