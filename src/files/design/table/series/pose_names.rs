@@ -138,7 +138,16 @@ pub(super) fn named_pose(
         guesses.push("`phi`, `theta` and `psi` are roll, pitch and yaw.".into());
     }
     let roll = roll.or(greek);
-    let Some(about) = roll.or(uvw).or(rotations) else { return Ok(None) };
+    let Some(about) = roll.or(uvw).or(rotations) else {
+        // A is a turn about x for some makers and about z for others
+        let letters = by_words([&["a"], &["b"], &["c"]])
+            .or_else(|| by_words([&["alpha"], &["beta"], &["gamma"]]))
+            .filter(|_| stated.rotation_order.is_none());
+        return match letters {
+            Some(letters) => Err(InvalidSeries::Order(letters.map(|c| header[c].as_str()).join(", "))),
+            None => Ok(None),
+        };
+    };
     let shown = || about.map(|c| header[c].as_str()).join(", ");
     if stated.rotation_order.is_none() {
         if roll.is_none() && uvw.is_some() {

@@ -60,9 +60,12 @@ fn conventions_of_makers_are_taken_by_their_names_or_refused() {
     let moved = usual("surge,sway,heave,roll,pitch,yaw\n0,0,0,0,0,0\n");
     assert!(moved.guesses.iter().any(|g| g.contains("count from home")));
     assert_eq!((moved.rows[0].value, moved.frames.measured_from()), (home(), ListedFrom::Home));
-    let text = "x,y,z,rx,ry,rz\n1,2,3,4,5,6\n";
-    let unclear = read_poses(text.as_bytes(), &PoseConvention::default(), &home(), "mm");
-    assert!(matches!(unclear, Err(InvalidSeries::Order(names)) if names == "rx, ry, rz"));
+    // A is a turn about z for some makers and about x for others
+    for names in ["rx, ry, rz", "A, B, C", "alpha, beta, gamma"] {
+        let text = format!("x, y, z, {names}\n1,2,3,4,5,6\n");
+        let unclear = read_poses(text.as_bytes(), &PoseConvention::default(), &home(), "mm");
+        assert!(matches!(&unclear, Err(InvalidSeries::Order(shown)) if shown == names), "{unclear:?}");
+    }
 }
 
 #[test]
