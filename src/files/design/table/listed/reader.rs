@@ -15,10 +15,10 @@ pub(super) struct Reader<'a> {
 }
 
 /// Greatest depth of lists in lists; a file of brackets alone would exhaust the stack.
-const DEEPEST: usize = 32;
+pub(super) const DEEPEST: usize = 32;
 
 /// The bracket that closes another one.
-fn closing(open: char) -> char {
+pub(super) fn closing(open: char) -> char {
     match open {
         '[' => ']',
         '(' => ')',

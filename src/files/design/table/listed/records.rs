@@ -1,6 +1,6 @@
 //! Records of a list: objects, or the numbers of a row, with the lines where they begin.
 
-use super::reader::Reader;
+use super::reader::{DEEPEST, Reader, closing};
 use super::tokens::{Token, computes, tokens};
 use super::{ListValue, NamedValues, named_values};
 use crate::design::table::header::CellUnit;
@@ -49,8 +49,13 @@ pub(in crate::design::table) fn records(
     let mut reader = Reader { tokens: &tokens, places: &places, at: 0, factor: None, depth: 0 };
     let mut found: Vec<Vec<Record>> = Vec::new();
     let count = |record: &Record| if let ListValue::List(list) = &record.value { list.len() } else { 0 };
+    let heights = heights(&tokens);
     while let Some(token) = reader.peek().cloned() {
         let begin = reader.at;
+        if matches!(token, Token::Open(_)) && !(1..=DEEPEST).contains(&heights[begin]) {
+            reader.at += 1;
+            continue;
+        }
         let line = places[begin].0;
         let list = match token {
             Token::Open(open) => {
@@ -103,6 +108,28 @@ pub(in crate::design::table) fn records(
     let kinds =
         [kept(&|n| n == 0), kept(&|n| n >= POSE), if rows.len() < MATRIX_ROW.1 { Vec::new() } else { rows }];
     Ok(kinds.into_iter().find(|list| !list.is_empty()))
+}
+
+/// For each opening bracket the depth of brackets in it, from 1; 0 for other tokens and for brackets without an end.
+fn heights(tokens: &[Token]) -> Vec<usize> {
+    let mut out = vec![0; tokens.len()];
+    let mut around: Vec<(usize, char, usize)> = Vec::new();
+    for (at, token) in tokens.iter().enumerate() {
+        match token {
+            Token::Open(open) => around.push((at, *open, 0)),
+            Token::Close(close) => match around.pop() {
+                Some((begin, open, inner)) if closing(open) == *close => {
+                    out[begin] = inner + 1;
+                    if let Some((.., height)) = around.last_mut() {
+                        *height = inner.saturating_add(1).max(*height);
+                    }
+                }
+                _ => around.clear(),
+            },
+            _ => {}
+        }
+    }
+    out
 }
 
 /// Whether a printed array leaves out rows or numbers, which it shows as `...`.

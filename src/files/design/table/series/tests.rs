@@ -248,6 +248,18 @@ fn rows_may_be_legs() {
 }
 
 #[test]
+fn brackets_without_end_are_refused_at_once() {
+    let began = std::time::Instant::now();
+    for open in ["[", "{", "(", "{\"a\": {", "- [", "[[1], ", "'\\", "1x"] {
+        let text = open.repeat(60_000);
+        assert!(read_poses(text.as_bytes(), &PoseConvention::default(), &home(), "mm").is_err());
+        assert!(SeriesKind::Lengths.read(text.as_bytes(), "mm", numbers).is_err());
+    }
+    // each took minutes where every bracket was tried by itself
+    assert!(began.elapsed().as_secs() < 60, "{:?}", began.elapsed());
+}
+
+#[test]
 fn every_bad_row_is_named() {
     let text = "t,1,2,3,4,5,6\n0,1,2,3,4,5,6\n1,2,3\n?,1,2,3,4,5,6\n3,1,2,x,4,5,6\n";
     let Err(why) =
