@@ -19,6 +19,7 @@ use super::listed::is_computed;
 use super::models;
 use super::sheet::{CellTable, InvalidSheet};
 use super::text::decode;
+use crate::design::keys::LARGEST;
 use crate::design::{DesignModel, NameCount};
 use platform::geom::Pose;
 use platform::manipulator::{Body, InvalidManipulator, Leg, Manipulator};
@@ -85,6 +86,16 @@ impl PointTable {
     /// # Errors
     /// [`InvalidPointTable`].
     pub fn read(bytes: &[u8]) -> Result<Self, InvalidPointTable> {
+        let table = Self::read_any(bytes)?;
+        let ends = table.legs.iter().flat_map(|leg| [leg.base, leg.platform]);
+        // factors of lists and of units may leave the range of coordinates
+        match ends.into_iter().flat_map(|end| [end.x, end.y, end.z]).find(|x| !(x.abs() < LARGEST)) {
+            Some(x) => Err(InvalidPointTable::Form(format!("{x:e} is too far out, stay below {LARGEST:e}"))),
+            None => Ok(table),
+        }
+    }
+
+    fn read_any(bytes: &[u8]) -> Result<Self, InvalidPointTable> {
         let text = decode(bytes).map(|decoded| decoded.text).unwrap_or_default();
         if text.trim_start().starts_with("ISO-10303-21") {
             return Err(InvalidPointTable::Step);

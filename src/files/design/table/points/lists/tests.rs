@@ -214,6 +214,8 @@ fn values_of_programs_beside_the_joints_are_told_apart() {
     assert!(refusal(&computed).contains("programs are not run"), "{}", refusal(&computed));
     let shifted = format!("B = np.array({BASE:?}) + np.array([0, 0, 10])\nP = np.array({PLATFORM:?})\n");
     assert!(refusal(&shifted).contains("programs are not run"), "{}", refusal(&shifted));
+    let far = refusal(&format!("B = 1e60*[{base}];\nP = [{platform}];\n"));
+    assert!(far.contains("is too far out"), "{far}");
     let halves = read(&format!("B = [{base}]/2;\nP = 2*[{platform}];\n"));
     assert_eq!((halves.legs[3].base.x, halves.legs[3].platform.x), (-200.74 / 2.0, -195.63 * 2.0));
     assert!(!refusal(&format!("B = [{base}] + 5;\nP = [{platform}];\n")).is_empty());
