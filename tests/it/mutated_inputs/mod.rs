@@ -311,7 +311,7 @@ fn texts_of_joints_and_poses_are_read_or_refused() {
         let name = path.file_name().unwrap().to_str().unwrap();
         assert!(read(file) > 0 || is_part.contains(&name), "{name}");
     }
-    sound(first_fault(&files, size(300, 20_000), |bytes, _| quiet(|| _ = read(bytes))));
+    sound(first_fault(&files, size(60, 20_000), |bytes, _| quiet(|| _ = read(bytes))));
 }
 
 #[test]
