@@ -20,7 +20,10 @@ mod turn;
 
 pub use across::any_across;
 pub use chart::{Bisection, Chart, ChartCell, Covered, combination};
-pub use convention::{AngleUnit, FrameAxis, PoseConvention, QuaternionOrder, RotationOrder, TurnAxes, UnknownOrder, UpAxis, WrittenAngles, WrittenPose, is_by_columns};
+pub use convention::{
+    AngleUnit, FrameAxis, PoseConvention, QuaternionOrder, RotationOrder, TurnAxes, UnknownOrder, UpAxis,
+    WrittenAngles, WrittenPose, is_by_columns,
+};
 pub use draw::{CentredPoses, any_pose};
 pub use draw::{SamplePlan, random_rotation};
 pub use hull::convex_hull;
