@@ -39,6 +39,34 @@ fn lengths_of_poses_are_a_table_without_preamble() {
 }
 
 #[test]
+fn poses_as_matrices_and_in_json_are_those_of_their_angles() {
+    // a third of a turn about the diagonal, exactly
+    let (matrix, angles) = ("0,0,1,4,1,0,0,-2,0,1,0,350", "4,-2,350,90,0,90");
+    let meant = table(&["ik", WITHOUT_LIMITS, "--pose", angles]);
+    let folder = tempfile::tempdir().unwrap();
+    let near = |found: &[Vec<String>]| {
+        let number = |cell: &String| cell.parse::<f64>().unwrap();
+        found[1].iter().map(number).zip(meant[1].iter().map(number)).all(|(a, b)| (a - b).abs() < 1e-9)
+    };
+    assert!(near(&table(&["ik", WITHOUT_LIMITS, "--pose", matrix])));
+    let lines = "0 0 1 4\n1 0 0 -2\n0 1 0 350\n0 0 0 1\n";
+    let json = "{\"poses\": [{\"R\": [[0, 0, 1], [1, 0, 0], [0, 1, 0]], \"p\": [4, -2, 350]}]}";
+    for text in [lines, json, &matrix.replace(',', " ")] {
+        let file = folder.path().join("poses.txt");
+        std::fs::write(&file, text).unwrap();
+        assert!(near(&table(&["ik", WITHOUT_LIMITS, file.to_str().unwrap()])), "{text}");
+    }
+    let at = |pose: &str| document(&equipod(&["at", WITHOUT_LIMITS, "--pose", pose, "--json"]));
+    assert_eq!(at(matrix)["pose"]["p"], at(angles)["pose"]["p"]);
+    // all commands with exact poses read them too
+    let exact = document(&equipod(&["singular", "motion", WITHOUT_LIMITS, "--pose", matrix, "--json"]));
+    assert!(exact["error"].is_null(), "{exact}");
+    let mirrored =
+        document(&equipod(&["ik", WITHOUT_LIMITS, "--pose", "0,0,1,4,1,0,0,-2,0,-1,0,350", "--json"]));
+    assert!(mirrored["error"]["message"].as_str().unwrap().contains("no rotation"), "{mirrored}");
+}
+
+#[test]
 fn the_record_has_one_pose_or_rows() {
     let one = document(&equipod(&["ik", DESIGN, "--json"]));
     assert_eq!(one["lengths"].as_array().unwrap().len(), 6);

@@ -1,9 +1,11 @@
 """The program `equipod-check` of the package: it checks proof files, and imports nothing beyond the standard library."""
 
+import copy
 import itertools
 import json
 import math
 import pathlib
+import random
 import subprocess
 import sys
 import types
@@ -28,6 +30,41 @@ def test_the_program_of_the_package_checks_a_proof_and_names_a_fault(tmp_path):
     done = subprocess.run([PROGRAM, proof], capture_output=True, text=True, check=False)
     assert done.returncode == 1
     assert "DOES NOT HOLD: leg-map (leg_map): c1 is" in done.stdout
+
+
+def places(value, way=()):
+    """The ways to all values of a document."""
+    yield way
+    inner = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
+    for key, one in inner:
+        yield from places(one, (*way, key))
+
+
+def test_documents_that_are_nearly_proofs_are_checked_or_refused(tmp_path):
+    proof = tmp_path / "proof.json"
+    pair = [str(DESIGNS / name) for name in ("rbt-octahedral.toml", "rbt-griffis-duffy.toml")]
+    subprocess.run([sys.executable, "-m", "equipod", "verify", *pair, "--samples", "1", "--proof", proof], capture_output=True, check=True)
+    whole = json.loads(proof.read_text())
+    ways = [way for way in places(whole) if way]
+    values = [None, True, -1, 10**30, "", "1/0", "1e999", [], {}, [[]], "sqrt(2)", "9" * 500, {"a": 1}, "x"]
+    draw = random.Random(1)
+    codes = set()
+    for case in range(400):
+        document = copy.deepcopy(whole)
+        *outer, key = ways[case] if case < len(ways) else draw.choice(ways)
+        parent = document
+        for step in outer:
+            parent = parent[step]
+        if draw.random() < 0.2:
+            del parent[key]
+        else:
+            parent[key] = draw.choice(values)
+        proof.write_text(json.dumps(document))
+        codes.add(check.run(str(proof), lambda _: None))
+    assert codes <= {0, 1, 2, 3} and {1, 2} <= codes
+    whole["not_included"] = 7
+    proof.write_text(json.dumps(whole))
+    assert check.run(str(proof), lambda _: None) == 2
 
 
 def test_the_checker_imports_only_the_standard_library():

@@ -8,7 +8,7 @@ use machine::requirements::PoseSpace;
 use platform::geom::{Pose, PoseConvention};
 
 /// The form of a pose in an option.
-pub(super) const FORM: &str = "give `home`, x,y,z,roll_deg,pitch_deg,yaw_deg or x,y,z,qw,qx,qy,qz; options such as --rotation-order change this order, and `base:` before the numbers restores it";
+pub(super) const FORM: &str = "give `home`, x,y,z,roll_deg,pitch_deg,yaw_deg, x,y,z,qw,qx,qy,qz or a matrix R11,R12,R13,x,R21,..,z; options such as --rotation-order change this order, and `base:` before the numbers restores it";
 
 /// The home pose of the design, or the default one.
 pub(crate) fn home(design: &Design) -> Pose {

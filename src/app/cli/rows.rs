@@ -54,6 +54,15 @@ fn told<T>(
             InvalidSeries::Order(_) => {
                 "state --rotation-order, such as moving-xyz, fixed-xyz or vector, or rotation_order in [frames]".into()
             }
+            InvalidSeries::Matrices(_) => {
+                "write R11,R12,R13,x,R21,..,z or a 4 x 4 matrix row by row, each pose on one line or on lines of four numbers, or name the columns r11, r12, .., r33, x, y, z".into()
+            }
+            InvalidSeries::Computed => {
+                "print the numbers in your program and read its output, or write them out".into()
+            }
+            InvalidSeries::Abbreviated => {
+                "print the whole array, in numpy with set_printoptions(threshold=sys.maxsize), or write it with savetxt".into()
+            }
             InvalidSeries::Travel(_) => "add the least length of a leg to its travel".into(),
             InvalidSeries::Unit(..) => "give the design a known unit of length, or the table the unit of the design".into(),
             _ => format!("write {}", table.form),
@@ -88,7 +97,7 @@ pub(crate) fn poses_of(
     (frames, units): (&PoseFrames, &str),
     context: &Context,
 ) -> Result<TimeSeries<Pose>, Failure> {
-    let form = "a pose a line: x,y,z,roll_deg,pitch_deg,yaw_deg or x,y,z,qw,qx,qy,qz, or name the columns in the first line: t for times, x,y,z,u,v,w or surge,sway,heave,roll,pitch,yaw";
+    let form = "a pose a line: x,y,z,roll_deg,pitch_deg,yaw_deg, x,y,z,qw,qx,qy,qz or a matrix R11,R12,R13,x,R21,..,z, or name the columns in the first line: t for times, x,y,z,u,v,w or surge,sway,heave,roll,pitch,yaw";
     told(read_poses(bytes, &frames.convention, &frames.home, units), TableName { path, code, form }, context)
 }
 

@@ -26,7 +26,8 @@ fn exported(design: &DesignModel, format: &str) -> (String, &'static str) {
     let export = Export::new(design, design.home_or_default(), (Vec::new(), Vec::new()), &options).unwrap();
     let files = export.files(format.parse::<ExportFormat>().unwrap());
     let files = files.unwrap_or_else(|why| panic!("{}: {format}: {why}", design.name));
-    let file = files.iter().find(|f| f.name == "legs.csv").unwrap_or(&files[0]);
+    let own = ["legs.csv", "equipod_design.c"];
+    let file = files.iter().find(|f| own.contains(&f.name.as_str())).unwrap_or(&files[0]);
     (file.text.clone(), unit.label)
 }
 
@@ -84,6 +85,39 @@ fn tables_of_legs_return() {
             given.units = "mm".into();
         }
         returns(&given.in_units("mm").unwrap(), "csv");
+    }
+}
+
+#[test]
+fn scripts_of_matlab_return() {
+    for text in [SYMMETRIC, OCTAHEDRAL, GENERAL, MIDLINE, SIX_FOUR, RUBIN, MOTION_BASE] {
+        let mut given = design(text);
+        if LengthUnit::of(&given.units).is_err() {
+            given.units = "m".into();
+        }
+        returns(&given.in_units("m").unwrap(), "matlab");
+    }
+}
+
+#[test]
+fn tables_of_c_return() {
+    for text in [SYMMETRIC, OCTAHEDRAL, GENERAL, MIDLINE, SIX_FOUR, RUBIN] {
+        let mut given = design(text);
+        if LengthUnit::of(&given.units).is_err() {
+            given.units = "mm".into();
+        }
+        returns(&given, "c");
+    }
+}
+
+#[test]
+fn json_returns_in_millimetres() {
+    for text in [SYMMETRIC, OCTAHEDRAL, GENERAL, MIDLINE, SIX_FOUR, RUBIN, MOTION_BASE] {
+        let mut given = design(text);
+        if LengthUnit::of(&given.units).is_err() {
+            given.units = "mm".into();
+        }
+        returns(&given.in_units("mm").unwrap(), "json");
     }
 }
 

@@ -22,7 +22,7 @@ pub use across::any_across;
 pub use chart::{Bisection, Chart, ChartCell, Covered, combination};
 pub use convention::{
     AngleUnit, FrameAxis, PoseConvention, QuaternionOrder, RotationOrder, TurnAxes, UnknownOrder, UpAxis,
-    WrittenAngles, WrittenPose,
+    WrittenAngles, WrittenPose, is_by_columns,
 };
 pub use draw::{CentredPoses, any_pose};
 pub use draw::{SamplePlan, random_rotation};

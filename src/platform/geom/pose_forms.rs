@@ -149,6 +149,13 @@ impl TryFrom<Matrix4<f64>> for Pose {
 
     #[inline]
     fn try_from(m: Matrix4<f64>) -> Result<Self, InvalidPose> {
+        Self::of_matrix(&m, ORTHOGONAL)
+    }
+}
+
+impl Pose {
+    /// The pose of `(R p; 0 1)` with `R^T R` off by at most `rounding` or by the digits that are always allowed.
+    pub(super) fn of_matrix(m: &Matrix4<f64>, rounding: f64) -> Result<Self, InvalidPose> {
         if !m.iter().all(|x| x.is_finite()) {
             return Err(InvalidPose::NotFinite);
         }
@@ -159,7 +166,7 @@ impl TryFrom<Matrix4<f64>> for Pose {
         let r: Matrix3<f64> = m.fixed_view::<3, 3>(0, 0).into_owned();
         let error = (r.transpose() * r - Matrix3::identity()).amax();
         let determinant = r.determinant();
-        if !(error <= ORTHOGONAL && determinant > 0.0) {
+        if !(error <= rounding.max(ORTHOGONAL) && determinant > 0.0) {
             return Err(InvalidPose::NotARotation { error, determinant });
         }
         let rotation =

@@ -20,7 +20,9 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
+use equipod::methods::design::{PointTable, SeriesKind, read_poses, read_poses_with_lengths};
 use equipod::methods::page::Session;
+use equipod::prelude::{Pose, PoseConvention};
 use serde_json::Value;
 
 mod mutate;
@@ -274,6 +276,42 @@ fn quiet(read: impl FnOnce()) -> Result<(), String> {
         let text = payload.downcast_ref::<String>().cloned();
         text.or_else(|| payload.downcast_ref::<&str>().map(ToString::to_string)).unwrap_or_default()
     })
+}
+
+/// Lists of programs, JSON, printed matrices, settings of controllers, models of robots.
+#[test]
+fn texts_of_joints_and_poses_are_read_or_refused() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fixtures");
+    let mut paths: Vec<PathBuf> = ["readers", "models"]
+        .iter()
+        .flat_map(|name| std::fs::read_dir(folder.join(name)).unwrap().map(|entry| entry.unwrap().path()))
+        .collect();
+    paths.sort();
+    let files: Vec<Vec<u8>> = paths.iter().map(|path| std::fs::read(path).unwrap()).collect();
+    let files: Vec<&[u8]> = files.iter().map(Vec::as_slice).collect();
+    let (usual, home) = (PoseConvention::default(), Pose::identity());
+    let six = |text: &str| {
+        let numbers = text.split(',').map(|cell| cell.parse::<f64>().map_err(|why| why.to_string()));
+        numbers.collect::<Result<Vec<_>, _>>()
+    };
+    let read = |bytes: &[u8]| {
+        let why = [
+            PointTable::read(bytes).err().map(|why| why.to_string()),
+            SeriesKind::Lengths.read(bytes, "mm", six).err().map(|why| why.to_string()),
+            SeriesKind::Angles.read(bytes, "", six).err().map(|why| why.to_string()),
+            read_poses(bytes, &usual, &home, "mm").err().map(|why| why.to_string()),
+            read_poses_with_lengths(bytes, &usual, &home, "mm").err().map(|why| why.to_string()),
+        ];
+        assert!(why.iter().flatten().all(|sentence| !sentence.is_empty()));
+        why.iter().filter(|why| why.is_none()).count()
+    };
+    // every file is one that some reader reads
+    for (path, file) in paths.iter().zip(&files) {
+        let is_part = ["points-objects.json", "points-printed.txt", "points-pins.hal"];
+        let name = path.file_name().unwrap().to_str().unwrap();
+        assert!(read(file) > 0 || is_part.contains(&name), "{name}");
+    }
+    sound(first_fault(&files, size(60, 20_000), |bytes, _| quiet(|| _ = read(bytes))));
 }
 
 #[test]

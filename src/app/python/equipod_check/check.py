@@ -1662,8 +1662,9 @@ def read(text: str) -> dict[str, Any]:
         raise NoProof("`equipod_proof` is missing")
     if document.get("schema_version") != VERSION:
         raise NoProof(f"`schema_version` is {document.get('schema_version')!r}, and this program reads version {VERSION}")
-    if not isinstance(document.get("claims"), list):
-        raise NoProof("`claims` is no list")
+    for key in ("claims", "not_included"):
+        if not isinstance(document.get(key, [] if key == "not_included" else None), list):
+            raise NoProof(f"`{key}` is no list")
     return document
 
 

@@ -6,9 +6,11 @@
 mod drives;
 mod hal;
 mod header;
+mod listed;
 mod models;
 mod placed;
 mod points;
+mod printed;
 mod rig_sheet;
 mod series;
 mod sheet;

@@ -1,8 +1,11 @@
 //! Rows and columns of a table: detection of separators, decimal marks and the header.
 
+use std::borrow::Cow;
+
 use thiserror::Error;
 
 use super::header::{CellUnit, length_unit, units_in_title};
+use super::printed;
 use super::text::{decode, is_workbook};
 use platform::geom::AngleUnit;
 
@@ -66,8 +69,39 @@ impl CellTable {
     /// [`InvalidSheet`].
     pub(super) fn read(bytes: &[u8], least: usize) -> Result<Self, InvalidSheet> {
         let decoded = decode(bytes).map_err(InvalidSheet::Encoding)?;
-        let mut guesses: Vec<String> = decoded.guess.into_iter().collect();
-        let mut text = decoded.text;
+        let guesses: Vec<String> = decoded.guess.into_iter().collect();
+        let packed = is_workbook(bytes);
+        let found = Self::read_text(decoded.text.clone(), packed, least, guesses.clone());
+        if !matches!(found, Err(InvalidSheet::NoNumbers(_))) || !decoded.text.contains(['(', '=']) {
+            return found;
+        }
+        // `B1 (310, -80, 0)` and `B1: x=310 y=-80 z=0`
+        let separated = decoded.text.chars().map(|c| match c {
+            c if opens(c) => ',',
+            ']' | ')' | '}' | '=' => ' ',
+            c => c,
+        });
+        let again = Self::read_text(separated.collect(), packed, least, guesses);
+        again.map_err(|_| InvalidSheet::NoNumbers(least)).map(|mut sheet| {
+            sheet.guesses.push("Brackets and equal signs are read as separators.".into());
+            sheet
+        })
+    }
+
+    fn read_text(
+        mut text: String,
+        packed: bool,
+        least: usize,
+        mut guesses: Vec<String>,
+    ) -> Result<Self, InvalidSheet> {
+        if let Some(joined) = printed::joined(&text) {
+            guesses.push("Groups of columns that were printed below each other are joined.".into());
+            text = joined;
+        }
+        if let Some(rows) = named_rows(&text, least) {
+            guesses.push("The names before `=` are the first cells of their rows.".into());
+            text = rows;
+        }
         if let Some(lines) = bracketed(&text) {
             guesses.push("Each innermost pair of brackets is read as a row.".into());
             text = lines;
@@ -76,7 +110,7 @@ impl CellTable {
         let mut best: Option<([usize; 3], char, char, Vec<SheetRow>)> = None;
         let mut fault = None;
         for (separator, _) in SEPARATORS.into_iter().filter(|(c, _)| present(*c)) {
-            let records = match records(&text, separator) {
+            let records = match records(&text, separator, least) {
                 Ok(records) => records,
                 Err(why) => {
                     fault.get_or_insert(why);
@@ -104,7 +138,7 @@ impl CellTable {
         let Some((_, separator, decimal, records)) = best else {
             return Err(fault.unwrap_or(InvalidSheet::NoNumbers(least)));
         };
-        if separator != ',' && !is_workbook(bytes) {
+        if separator != ',' && !packed {
             let name = SEPARATORS.iter().find(|(c, _)| *c == separator).map_or("", |(_, name)| name);
             guesses.push(format!("The columns are separated by {name}."));
         }
@@ -251,6 +285,34 @@ impl CellTable {
         Ok(())
     }
 
+    /// A table of cells with decimal points, which need no guesses about marks.
+    pub(super) fn of_rows(
+        header: Option<Vec<String>>,
+        rows: Vec<SheetRow>,
+        (length_unit, angle_unit): (Option<&'static str>, Option<AngleUnit>),
+        guesses: Vec<String>,
+    ) -> Self {
+        Self { header, rows, length_unit, angle_unit, guesses, decimal: '.' }
+    }
+
+    /// The factor in a row such as `1.0e+03 *`, as MATLAB prints it above a matrix.
+    pub(super) fn factor(&self, row: &SheetRow) -> Option<f64> {
+        let text = row.cells.join(" ");
+        self.number(text.strip_suffix('*')?.trim()).filter(|x| *x > 0.0)
+    }
+
+    /// A number times a factor, in the notation of this table; a power of ten moves the decimal point without rounding.
+    pub(super) fn scaled(&self, cell: &str, factor: f64) -> String {
+        let power = factor.log10();
+        if factor.to_bits() == 1.0_f64.to_bits() {
+            return cell.to_owned();
+        }
+        if power.fract() == 0.0 && !cell.contains(['e', 'E']) {
+            return format!("{cell}e{power}");
+        }
+        self.number(cell).map_or_else(|| cell.to_owned(), |x| self.shown(x * factor))
+    }
+
     /// The number in a cell; `None` if it is invalid or not finite.
     pub(super) fn number(&self, cell: &str) -> Option<f64> {
         number(cell, self.decimal)
@@ -277,6 +339,11 @@ fn number(cell: &str, decimal: char) -> Option<f64> {
     if cell.len() - body.len() > 1 || !body.starts_with(|c: char| c.is_ascii_digit() || c == decimal) {
         return None;
     }
+    // double precision of Fortran: `1.5D+02`
+    let cell = match cell.find(['D', 'd']) {
+        Some(at) if at > 0 => cell[..at].to_owned() + "e" + &cell[at + 1..],
+        _ => cell,
+    };
     let cell = match decimal {
         ',' if cell.contains('.') || cell.ends_with(',') => return None,
         ',' => cell.replacen(',', ".", 1),
@@ -339,17 +406,33 @@ fn uncommented(row: &SheetRow) -> Vec<String> {
     cells
 }
 
+fn opens(c: char) -> bool {
+    matches!(c, '[' | '(' | '{')
+}
+
+/// Whether a text begins with a list in brackets.
+pub(super) fn is_list(text: &str) -> bool {
+    let is_comment = |line: &str| COMMENTS.iter().any(|mark| line.trim_start().starts_with(mark));
+    let content = text.lines().find(|line| !line.trim().is_empty() && !is_comment(line));
+    // units in a header are in brackets too: a list begins with a bracket, or with a name and its value
+    content.is_some_and(|content| {
+        let begins = |text: &str| {
+            let word = |c: char| c.is_alphanumeric() || "_.".contains(c);
+            text.trim_start().starts_with(opens)
+                || text.trim_start().trim_start_matches(word).starts_with("([")
+        };
+        // `[base]` is a section of settings
+        let inner = content.trim().strip_prefix('[').and_then(|inner| inner.strip_suffix(']'));
+        let is_section = inner.is_some_and(|inner| !inner.contains(|c: char| c.is_ascii_digit() || opens(c)));
+        !is_section
+            && (begins(content) || content.split_once(['=', ':']).is_some_and(|(_, value)| begins(value)))
+    })
+}
+
 /// The rows of a list in brackets, one per line, for example `base = [[1, 2, 3], ..`. Text before a bracket is a
 /// separate line. `None`: the text has no such rows.
 fn bracketed(text: &str) -> Option<String> {
-    let opens = |c: char| matches!(c, '[' | '(' | '{');
-    let content = text
-        .lines()
-        .find(|l| !l.trim().is_empty() && !COMMENTS.iter().any(|m| l.trim_start().starts_with(m)))?;
-    // units in a header are in brackets too: a list begins with a bracket, or with a name and its value
-    let lists = content.trim_start().starts_with(opens)
-        || content.split_once(['=', ':']).is_some_and(|(_, value)| value.trim_start().starts_with(opens));
-    if !lists {
+    if !is_list(text) {
         return None;
     }
     let mut out = String::new();
@@ -382,10 +465,48 @@ fn bracketed(text: &str) -> Option<String> {
     Some(out)
 }
 
+/// Rows `B1 = 310, -80, 0` with their names as cells; `None` if fewer than two lines have this form.
+fn named_rows(text: &str, least: usize) -> Option<String> {
+    let row = |line: &str| {
+        let (name, values) = line.split_once('=')?;
+        let is_name = name.trim().chars().all(|c| c.is_alphanumeric() || "_.- ".contains(c));
+        let separates = |c: char| c.is_whitespace() || ";,".contains(c);
+        let numbers = values.split(separates).filter(|cell| number(cell, '.').is_some()).count();
+        let separator = [';', ','].into_iter().find(|c| values.contains(*c)).unwrap_or(' ');
+        (is_name && !name.trim().is_empty() && numbers >= least.max(2))
+            .then(|| format!("{}{separator}{}", name.trim(), values.trim()))
+    };
+    text.lines().filter_map(row).nth(1)?;
+    let lines: Vec<String> = text.lines().map(|line| row(line).unwrap_or_else(|| line.to_owned())).collect();
+    Some(lines.join("\n"))
+}
+
+/// The text without comments behind the numbers of a line; lines keep their places.
+fn without_comments(text: &str, least: usize) -> Cow<'_, str> {
+    if !COMMENTS.iter().any(|mark| text.contains(mark)) {
+        return text.into();
+    }
+    let separates = |c: char| c.is_whitespace() || ";|,".contains(c);
+    let short = |line: &'_ str| -> usize {
+        let marks = COMMENTS.iter().filter_map(|mark| line.find(mark));
+        let Some(at) = marks.min().filter(|at| line[..*at].ends_with(separates)) else { return line.len() };
+        let numbers = line[..at].split(separates).filter(|cell| number(cell, '.').is_some()).count();
+        if numbers >= least && !line[..at].contains('"') { at } else { line.len() }
+    };
+    text.split_inclusive('\n')
+        .flat_map(|line| {
+            let at = short(line);
+            [&line[..at], if at < line.len() && line.ends_with('\n') { "\n" } else { "" }]
+        })
+        .collect::<String>()
+        .into()
+}
+
 /// Cells of all lines that are not blank. A cell in quotation marks may contain separators and line ends; two marks in
 /// it are one.
 // The crate `csv` silently accepts an unclosed quotation mark, and it counts each blank of a run as a separator.
-fn records(text: &str, separator: char) -> Result<Vec<SheetRow>, InvalidSheet> {
+fn records(text: &str, separator: char, least: usize) -> Result<Vec<SheetRow>, InvalidSheet> {
+    let text: &str = &without_comments(text, least);
     let mut rows = Vec::new();
     let mut row = SheetRow { line: 1, cells: Vec::new() };
     let (mut cell, mut line) = (String::new(), 1);
@@ -395,8 +516,12 @@ fn records(text: &str, separator: char) -> Result<Vec<SheetRow>, InvalidSheet> {
     let mut chars = text.chars().peekable();
     let blank = |c: char| c != '\n' && c != '\r' && c.is_whitespace();
     let ends = |c: char| if separator == ' ' { blank(c) } else { c == separator };
-    let finish =
-        |cell: &mut String, row: &mut SheetRow| row.cells.push(std::mem::take(cell).trim().to_string());
+    let finish = |cell: &mut String, row: &mut SheetRow| {
+        let whole = std::mem::take(cell);
+        let inner = whole.trim();
+        let marked = inner.strip_prefix('\'').and_then(|inner| inner.strip_suffix('\''));
+        row.cells.push(marked.unwrap_or(inner).to_string());
+    };
     while let Some(c) = chars.next() {
         match c {
             '"' if quoted.is_some() && chars.peek() == Some(&'"') => {
@@ -485,6 +610,8 @@ mod tests {
             "  1.5   -2 300.25\n4 5.5 0\n\n",
             "1,5 -2,0 300,25\n4,0 5,5 0,0\n",
             "\"1.5\",\"-2\",\"300.25\"\n4,\"5.5\",0\n",
+            "'1.5','-2','300.25'\n'4',5.5,0\n",
+            "array([[1.5, -2, 300.25],\n       [4. , 5.5, 0. ]])",
             "\"1,5\",\"-2\",\"300,25\"\n4,\"5,5\",0\n",
             "1.5,\u{2212}2,+300.25,,\n,,,,\n4,5.5,0,,\n",
             "1.5e0,-2.0,3.0025E2\n# between\n4,5.5,0 \n% after\n",

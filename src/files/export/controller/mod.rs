@@ -123,7 +123,7 @@ fn heading(export: &Export) -> String {
     let unit = export.unit.label;
     let mut lines = vec![format!("{}: written by {}", export.name, export.program)];
     lines.extend(export.source.iter().map(|s| format!("Source of the design: {s}")));
-    lines.push(format!("Lengths in the unit of the design, {unit}; squared lengths in its square."));
+    lines.push(format!("Lengths in {unit}, the unit of the design; squared lengths in its square."));
     // neither the beginning nor the end of a comment may occur inside one
     let plain = |line: String| ascii(&line, |_| "_".to_string()).replace("*/", "* /").replace("/*", "/ *");
     format!("/*\n{} */\n", commented(" *", lines.into_iter().map(plain)))

@@ -11,6 +11,8 @@
 //!
 //! so that the pivot, and not the origin of the platform, stands at `C q`.
 
+mod matrix;
+
 use std::fmt::Write as _;
 
 use std::fmt;
@@ -21,6 +23,8 @@ use nalgebra::{Matrix3, Rotation3, Vector3};
 use super::pose_set::ListedFrom;
 use super::rotation_vector::rotation_vector;
 use super::{InvalidPose, Pose};
+
+pub use matrix::is_by_columns;
 
 num::words! {
     /// An axis of a frame.
@@ -443,11 +447,12 @@ impl PoseConvention {
             && self.up_axis() == UpAxis::Z
     }
 
-    /// The pose of six numbers, position and angles, or of seven, position and a quaternion of norm 1 within a
-    /// thousandth.
+    /// The pose of six numbers, position and angles; of seven, position and a quaternion of norm 1 within a thousandth;
+    /// or of twelve or sixteen, the matrix `(R p)` or `(R p; 0 0 0 1)` row by row.
     ///
     /// # Errors
-    /// Another number of numbers, numbers that are not finite, another norm.
+    /// Another number of numbers, numbers that are not finite, another norm, a matrix that is no rotation within the
+    /// rounding of its decimals.
     pub fn read(&self, numbers: &[f64], home: &Pose) -> Result<Pose, InvalidPose> {
         if !numbers.iter().all(|x| x.is_finite()) {
             return Err(InvalidPose::NotFinite);
@@ -460,9 +465,16 @@ impl PoseConvention {
             [x, y, z, a, b, c, d] => {
                 Pose::from_quaternion([x, y, z], self.quaternion_order().scalar_first([a, b, c, d]))?
             }
-            _ => {
-                return Err(InvalidPose::Text(format!("{} values instead of six or seven", numbers.len())));
-            }
+            _ => match numbers.len() {
+                12 => matrix::of_twelve(numbers)?,
+                16 => matrix::of_sixteen(numbers)?,
+                9 => return Err(matrix::without_position(numbers)),
+                count => {
+                    let message =
+                        format!("{count} values instead of six or seven, or twelve or sixteen of a matrix");
+                    return Err(InvalidPose::Text(message));
+                }
+            },
         };
         Ok(self.in_base_frame(&written, home))
     }

@@ -217,3 +217,49 @@ fn one_number_grows_along_its_way_and_the_others_stay() {
         }
     }
 }
+
+#[test]
+fn matrices_are_read_to_the_digits_they_have_and_refused_where_they_are_unclear() {
+    let mut rng = Rng::new(12);
+    let usual = PoseConvention::default();
+    let rounded = |x: f64, digits: i32| (x * 10.0_f64.powi(digits)).round() / 10.0_f64.powi(digits);
+    for _ in 0..40 {
+        let (one, home) = (pose(&mut rng), pose(&mut rng));
+        let (r, p) = (*one.rotation.matrix(), one.position);
+        let rows = |digits: i32| -> Vec<f64> {
+            (0..3)
+                .flat_map(|i| [0, 1, 2].map(|j| rounded(r[(i, j)], digits)).into_iter().chain([p[i]]))
+                .collect()
+        };
+        for convention in conventions(&mut rng) {
+            let stated = convention.as_stated(&one, &home);
+            let (r, p) = (*stated.rotation.matrix(), stated.position);
+            let twelve: Vec<f64> = (0..3).flat_map(|i| [r[(i, 0)], r[(i, 1)], r[(i, 2)], p[i]]).collect();
+            assert!(difference(&convention.read(&twelve, &home).unwrap(), &one) < 2e-14, "{convention:?}");
+            let sixteen = [&twelve[..], &[0.0, 0.0, 0.0, 1.0]].concat();
+            assert!(difference(&convention.read(&sixteen, &home).unwrap(), &one) < 2e-14);
+            let by_columns: Vec<f64> = (0..16).map(|k| sixteen[k % 4 * 4 + k / 4]).collect();
+            assert!(difference(&convention.read(&by_columns, &home).unwrap(), &one) < 2e-14);
+        }
+        for digits in [3, 4, 7, 15] {
+            let found = usual.read(&rows(digits), &home).unwrap();
+            assert!(difference(&found, &one) < 2.0 * 10.0_f64.powi(-digits), "{digits}");
+        }
+        let why = |numbers: &[f64]| usual.read(numbers, &home).unwrap_err().to_string();
+        // entries with many digits that are no rotation, and entries with two
+        let mut sheared = rows(15);
+        sheared[1] += 1e-4;
+        assert!(why(&sheared).contains("no rotation"), "{}", why(&sheared));
+        assert!(why(&rows(1)).contains("no rotation"));
+        let mirrored: Vec<f64> =
+            rows(15).iter().enumerate().map(|(k, x)| if k % 4 < 3 { -x } else { *x }).collect();
+        assert!(why(&mirrored).contains("no rotation"));
+        let nine: Vec<f64> = (0..9).map(|k| r[(k / 3, k % 3)]).collect();
+        assert!(why(&nine).contains("without a position"), "{}", why(&nine));
+        for twelve in [[&nine[..], &[p.x, p.y, p.z]].concat(), [&[p.x, p.y, p.z], &nine[..]].concat()] {
+            assert!(why(&twelve).contains("do not tell rows from columns"), "{}", why(&twelve));
+        }
+    }
+    let level = usual.read(&[1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 5.0, 6.0, 7.0], &Pose::identity());
+    assert_eq!(level.unwrap(), Pose::shifted(Vector3::new(5.0, 6.0, 7.0)));
+}

@@ -1,10 +1,69 @@
-//! Tables with columns of radii and angles.
+//! Points by a radius and an angle: their words, and tables with columns of them.
 
-use super::lists::{DIAMETER_WORDS, RADIUS_WORDS, angle_unit, is_angle, is_diameter, is_radius, on_circle};
-use super::{InvalidPointTable, body_of_word};
+use nalgebra::Point3;
+
+use super::InvalidPointTable;
+use super::words::body_of_word;
 use crate::design::table::header::{length_unit, plain};
 use crate::design::table::sheet::CellTable;
 use platform::manipulator::Body;
+
+/// Words for a radius.
+const RADIUS_WORDS: [&str; 3] = ["radius", "halbmesser", "rayon"];
+
+/// Words for a diameter.
+const DIAMETER_WORDS: [&str; 2] = ["diameter", "durchmesser"];
+
+/// Whether a name is that of a diameter.
+fn is_diameter(name: &str) -> bool {
+    DIAMETER_WORDS.iter().any(|word| plain(name).contains(word))
+}
+
+/// Whether a name is that of a radius.
+pub(super) fn is_radius(name: &str) -> bool {
+    let name = plain(name);
+    RADIUS_WORDS.iter().any(|word| name.contains(word))
+        || name.contains("radii")
+        || ["r", "rb", "rp", "rt", "br", "pr", "tr"].contains(&name.as_str())
+}
+
+/// Whether a name is that of an angle.
+pub(super) fn is_angle(name: &str) -> bool {
+    let name = plain(name);
+    ["angle", "theta", "phi", "azimut", "deg", "winkel"].iter().any(|word| name.contains(word))
+}
+
+/// The unit of angles, from their names, a comment, or a value above 6.3. Otherwise it is the reason why the unit is
+/// unknown.
+pub(super) fn angle_unit<'a>(
+    names: [&str; 2],
+    text: &str,
+    mut angles: impl Iterator<Item = &'a f64>,
+) -> Result<bool, String> {
+    let said = |text: &str| {
+        let text = text.to_lowercase();
+        let words = |words: &[&str]| {
+            text.split(|c: char| !(c.is_alphabetic() || c == '\u{b0}')).any(|part| words.contains(&part))
+        };
+        let degrees = words(&["deg", "degree", "degrees", "grad", "\u{b0}"]);
+        match (degrees, words(&["rad", "radian", "radians"])) {
+            (true, false) => Some(true),
+            (false, true) => Some(false),
+            _ => None,
+        }
+    };
+    match said(&names.join(" ")).or_else(|| said(text)) {
+        Some(degrees) => Ok(degrees),
+        None if angles.any(|x| x.abs() > std::f64::consts::TAU) => Ok(true),
+        None => Err("the angles may be degrees or radians: say which in a name or in a comment".into()),
+    }
+}
+
+/// The point of a circle about z at an angle from x towards y.
+pub(super) fn on_circle(radius: f64, angle: f64, degrees: bool) -> Point3<f64> {
+    let (sin, cos) = if degrees { angle.to_radians() } else { angle }.sin_cos();
+    Point3::new(radius * cos, radius * sin, 0.0)
+}
 
 /// Replaces columns of radii and angles, if the header has any, by x and y.
 ///

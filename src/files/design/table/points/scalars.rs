@@ -1,6 +1,7 @@
 //! Coordinates as single values with a name each: `#define BASE_0_X 310`, `B1x = 310`, or a row below such names.
 
-use super::{InvalidPointTable, PointTable, bodies_of_words, body_of_word, told_apart};
+use super::words::{bodies_of_words, body_of_word, told_apart};
+use super::{InvalidPointTable, PointTable};
 use crate::design::table::header::CellUnit;
 use crate::design::table::sheet::CellTable;
 use nalgebra::Point3;

@@ -1,6 +1,7 @@
 //! Tables whose columns are joints or legs and whose rows are coordinates, turned so that rows are joints or legs.
 
-use super::{LEAST_NUMBERS, axis_of, only_number};
+use super::LEAST_NUMBERS;
+use super::words::{axis_of, only_number};
 use crate::design::table::header::plain;
 use crate::design::table::sheet::{CellTable, SheetRow};
 
@@ -15,7 +16,8 @@ pub(super) fn turn(sheet: &mut CellTable, guesses: &mut Vec<String>) {
     if named {
         return;
     }
-    let Some((labels, columns)) = labelled(sheet).or_else(|| by_heights(sheet)) else { return };
+    let found = labelled(sheet).or_else(|| titled(sheet)).or_else(|| by_heights(sheet));
+    let Some((labels, columns)) = found else { return };
     let data: Vec<&SheetRow> = data(sheet);
     // the names of the columns are those of the legs or joints
     let heads: Option<Vec<String>> = sheet
@@ -80,6 +82,31 @@ fn labelled(sheet: &CellTable) -> Option<(Vec<String>, Vec<usize>)> {
         }
     }
     Some((labels, columns))
+}
+
+/// Two matrices of two or three rows, as the titles `B =` and `P =` above them show.
+fn titled(sheet: &CellTable) -> Option<(Vec<String>, Vec<usize>)> {
+    let data = data(sheet);
+    let columns = columns_of(sheet, &data).filter(|columns| columns.len() == 6)?;
+    let mut groups: Vec<(String, usize)> = Vec::new();
+    for row in &sheet.rows {
+        if data.iter().any(|found| found.line == row.line) {
+            groups.last_mut()?.1 += 1;
+        } else if sheet.factor(row).is_none() {
+            let title = row.cells.join(" ");
+            groups.push((title.trim_end_matches(|c: char| " =:".contains(c)).to_owned(), 0));
+        }
+    }
+    groups.retain(|(_, count)| *count > 0);
+    let [(first, count), (second, other)] = &groups[..] else { return None };
+    if count != other || !(2..=3).contains(count) {
+        return None;
+    }
+    let axes = ["x", "y", "z"];
+    let labels = [first, second]
+        .into_iter()
+        .flat_map(|title| axes[..*count].iter().map(move |axis| format!("{title} {axis}")));
+    Some((labels.collect(), columns))
 }
 
 /// Six rows of six numbers without names: rows are coordinates if only so both bodies are flat.
