@@ -120,7 +120,10 @@ mod tests {
             let (x, y) = (rng.next_u64() % field.prime(), rng.next_u64() % field.prime());
             let sum = add_product(ceiling - 1, x, y, ceiling);
             assert!(sum < ceiling);
-            assert_eq!(u128::from(field.reduced(sum)), ((ceiling - 1) % p + u128::from(x) * u128::from(y)) % p);
+            assert_eq!(
+                u128::from(field.reduced(sum)),
+                ((ceiling - 1) % p + u128::from(x) * u128::from(y)) % p
+            );
         }
     }
 

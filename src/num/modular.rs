@@ -326,9 +326,11 @@ mod tests {
     #[test]
     fn products_by_a_reciprocal_are_those_by_division() {
         let mut state = 1_u64;
-        for field in
-            fields(40).into_iter().chain([Field::modulo(7), Field::modulo((1 << 61) - (1 << 31) - 1), Field::modulo(u64::MAX >> 1)])
-        {
+        for field in fields(40).into_iter().chain([
+            Field::modulo(7),
+            Field::modulo((1 << 61) - (1 << 31) - 1),
+            Field::modulo(u64::MAX >> 1),
+        ]) {
             let edge = [0, 1, field.prime / 2, field.prime - 2, field.prime - 1];
             let drawn = (0..200).map(|_| {
                 state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
@@ -336,7 +338,10 @@ mod tests {
             });
             let list: Vec<u64> = edge.into_iter().chain(drawn).collect();
             for (x, y) in list.iter().flat_map(|x| edge.iter().chain(list.last()).map(move |y| (*x, *y))) {
-                assert_eq!(u128::from(field.mul(x, y)), u128::from(x) * u128::from(y) % u128::from(field.prime));
+                assert_eq!(
+                    u128::from(field.mul(x, y)),
+                    u128::from(x) * u128::from(y) % u128::from(field.prime)
+                );
             }
             if field.reciprocal > 0 {
                 let p = u128::from(field.prime);

@@ -25,22 +25,7 @@ pub(crate) fn read(
     if text == "home" {
         return Ok(home(design));
     }
-<<<<<<< HEAD
     let (convention, text) = frames.convention_of(text);
-    let (position, rotation) = if text.split(',').count() == 7 {
-||||||| e685bbb8
-    let usual = PoseConvention::default();
-    let (text, convention) = match text.strip_prefix(USUAL) {
-        Some(numbers) => (numbers, &usual),
-        None => (text, &frames.convention),
-    };
-    let (position, rotation) = if text.split(',').count() == 7 {
-=======
-    let usual = PoseConvention::default();
-    let (text, convention) = match text.strip_prefix(USUAL) {
-        Some(numbers) => (numbers, &usual),
-        None => (text, &frames.convention),
-    };
     let count = text.split(',').count();
     if count > 7 {
         // the entries of a matrix are decimals, and a rotation within their rounding
@@ -48,7 +33,6 @@ pub(crate) fn read(
         return found.map(|pose| of_doubles(&pose)).map_err(|why| refuse(why.to_string()));
     }
     let (position, rotation) = if count == 7 {
->>>>>>> files
         let [x, y, z, quaternion @ ..] = numbers::exact::<7>(text).map_err(refuse)?;
         if quaternion.iter().all(Surd::is_zero) {
             return Err(refuse("the quaternion is zero".to_owned()));
