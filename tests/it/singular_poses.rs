@@ -25,7 +25,7 @@ fn platforms_that_move_at_a_singular_pose_are_seen_to_move() {
         ("similar-circle-doubles.toml", "home", 1, 3, "traced", 3),
         ("similar-circle-doubles.toml", "0,0,10,0,0,1", 1, 3, "traced", 3),
         ("collinear-platform.toml", "0,0,64,0,0,0", 1, 2, "common_line", 0),
-        ("congruent.toml", "1,1,1,0,0,0", 2, 3, "traced", 3),
+        ("congruent.toml", "1,1,1,0,0,0", 2, 3, "traced", 0),
     ] {
         let (code, doc) = at_pose(&file(name), pose);
         let found = [&doc["dimension"], &doc["tangent_dimension"]].map(Value::as_u64);
@@ -61,10 +61,11 @@ fn the_exit_code_is_about_the_pose_however_many_components_are_found() {
     same_with_sections(&[("congruent.toml", "0,0,2,0,0,0"), ("collinear-platform.toml", "0,0,64,0,0,0")]);
 }
 
+/// Curves with joints as doubles have fewer points than the degree asks for, and stay traced.
 #[test]
 #[ignore = "evidence"]
-fn the_exit_code_of_a_traced_motion_is_about_the_pose_too() {
-    same_with_sections(&[("borel-bricard.toml", "0,0,0,0,0,180"), ("similar-circle-doubles.toml", "home")]);
+fn a_motion_traced_alone_is_undecided_with_and_without_sections() {
+    same_with_sections(&[("similar-circle-doubles.toml", "home")]);
 }
 
 /// The Borel-Bricard motion from a crossing of its curve: its sections have as many points as its degree counted modulo
@@ -74,7 +75,7 @@ fn components_are_accounted_for_by_the_counted_degree() {
     let file = file("borel-bricard.toml");
     let out = equipod(&["singular", "motion", &file, "--pose", "0,0,0,0,0,180", "--json"]);
     let doc = document(&out);
-    assert_eq!((out.status.code(), &doc["components_accounted"]), (Some(3), &true.into()), "{doc}");
+    assert_eq!((out.status.code(), &doc["components_accounted"]), (Some(0), &true.into()), "{doc}");
     let degrees = doc["complex_components"].as_array().unwrap().iter();
     assert_eq!(degrees.map(|c| c["degree"].as_u64().unwrap()).sum::<u64>(), 4);
 }

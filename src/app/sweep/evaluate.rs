@@ -10,14 +10,15 @@ use serde_json::Value;
 use super::candidate::{Ground, SweepCandidate};
 use super::climb::climb;
 use super::column::{ColumnKind, SweepCell, SweepColumn};
-use super::measure::{least_axis_distance, length_range, worst_conditioning};
 use super::plan::{AnswerField, AnswerName, AxisValues, BasePlan, FreeQuantity, SweepPlan, SweepTask};
 use ask::{BOX_CELLS, CheckReport, Checked, OptimizeEvidence, OptimizeOptions, Solver};
 use files::design::Drive;
 use fk::{FkOptions, FkRoot, Threads};
 use machine::manufacture::{PoseSearch, joint_allowance};
 use machine::requirements::{TermKind, Terms};
-use platform::manipulator::{Body, inverse_condition, jacobian};
+use platform::manipulator::{
+    Body, inverse_condition, jacobian, least_axis_distance, length_range, worst_conditioning,
+};
 use records::{AssessAnswer, CheckAnswer, SolvedRecord};
 use synthesis::Pattern;
 use synthesis::singularity::regular_box;

@@ -16,7 +16,6 @@ mod climb;
 mod column;
 mod digest;
 mod evaluate;
-mod measure;
 pub mod part;
 pub mod plan;
 mod rows;

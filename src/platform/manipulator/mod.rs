@@ -12,6 +12,7 @@ mod leg;
 mod lengths;
 mod level;
 mod octahedral;
+mod over_poses;
 mod values;
 
 pub use body::{Body, NoSuchBody};
@@ -28,5 +29,6 @@ pub use lengths::{InvalidLengths, LegLengths, SquaredLegLengths};
 pub use level::Level;
 pub use octahedral::is_collinear;
 pub use octahedral::{NotOctahedral, Octahedral};
+pub use over_poses::{least_axis_distance, length_range, worst_conditioning};
 pub use values::{ExactEnds, JointKnowledge, dimension_of_ends, squares_of_ends, vector_of_ends};
 pub use values::{JointValues, SurdPoint};

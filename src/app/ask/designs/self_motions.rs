@@ -115,16 +115,24 @@ impl SelfMotionReport {
         self.motion.curves.iter().all(|c| matches!(c.end, CurveEnd::Closed | CurveEnd::Joined))
     }
 
-    /// Whether the platform moves at the pose, or at some pose with the lengths; `None`: not proved either way.
+    /// Whether the platform moves at the pose, or at some pose with the lengths; `None`: undecided.
     ///
-    /// Other components with the same lengths do not matter: [`accounted`](Self::accounted) tells about them.
+    /// A motion is proved, sampled on a surface, or traced along curves of which as many are found as the degree of the
+    /// set asks for. Curves traced alone leave it open.
     #[must_use]
     pub fn moves(&self) -> Option<bool> {
         let at_first = self.motion.at_pose.as_ref().and_then(|at| at.verdict.moves());
-        match self.start {
-            Some(_) => at_first,
-            None if at_first == Some(true) => Some(true),
-            None => self.isolated.then_some(false),
+        let counted = self.dimension == Some(1)
+            && self.accounted == Some(true)
+            && self.is_whole()
+            && !self.motion.curves.is_empty();
+        let surface = self.dimension.is_some_and(|d| d > 1) && !self.origins.is_empty();
+        match (at_first, self.start) {
+            (Some(moves), Some(_)) => Some(moves),
+            (Some(true), None) => Some(true),
+            _ if counted || surface => Some(true),
+            (_, None) => self.isolated.then_some(false),
+            _ => None,
         }
     }
 

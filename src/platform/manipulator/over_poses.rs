@@ -3,8 +3,8 @@
 
 use nalgebra::{Matrix6, Point3};
 
-use platform::geom::{Pose, segment_distance};
-use platform::manipulator::{Leg, Manipulator, inverse_condition, jacobian_of_legs};
+use super::{Leg, Manipulator, inverse_condition, jacobian_of_legs};
+use crate::geom::{Pose, segment_distance};
 
 /// The rounding error allowed in the bounds below, as a share. They are products of some tens of operations, of
 /// matrices with condition numbers below `1 / ILL`.
@@ -19,7 +19,8 @@ const ILL: f64 = 1e-6;
 /// `1 / (|(J^T J)^4| |(J J^T)^-4|)^(1/8)` is at most 1.26 times smaller. Poses are taken in the order of the first
 /// bound. They are skipped from the first one on whose bound exceeds the least value found. Any other pose is skipped
 /// if its second bound exceeds this value.
-pub(super) fn worst_conditioning(
+#[must_use]
+pub fn worst_conditioning(
     legs: &[Leg; 6],
     poses: &[Pose],
     characteristic_length: f64,
@@ -63,7 +64,8 @@ fn close_bound(j: &Matrix6<f64>, inverse: &Matrix6<f64>) -> f64 {
 }
 
 /// The least distance, over the poses, of the axes of two legs that share no joint; `None` if every two share one.
-pub(super) fn least_axis_distance(m: &Manipulator, poses: &[Pose]) -> Option<f64> {
+#[must_use]
+pub fn least_axis_distance(m: &Manipulator, poses: &[Pose]) -> Option<f64> {
     let (legs, pairs) = (m.legs(), m.pairs());
     let apart: Vec<(usize, usize)> = (0..6)
         .flat_map(|i| (i + 1..6).map(move |j| (i, j)))
@@ -92,7 +94,8 @@ fn lines_apart([p0, p1]: [Point3<f64>; 2], [q0, q1]: [Point3<f64>; 2]) -> f64 {
 }
 
 /// Least and greatest leg length over the poses.
-pub(super) fn length_range(legs: &[Leg; 6], poses: &[Pose]) -> Option<[f64; 2]> {
+#[must_use]
+pub fn length_range(legs: &[Leg; 6], poses: &[Pose]) -> Option<[f64; 2]> {
     let all = poses.iter().flat_map(|pose| legs.map(|l| (pose.transform(&l.platform) - l.base).norm()));
     all.fold(None, |range: Option<[f64; 2]>, l| {
         Some(range.map_or([l, l], |[least, greatest]| [least.min(l), greatest.max(l)]))
@@ -102,15 +105,25 @@ pub(super) fn length_range(legs: &[Leg; 6], poses: &[Pose]) -> Option<[f64; 2]> 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use ask::design::parse;
-    use files::design::Format;
-    use platform::manipulator::jacobian;
+    use crate::manipulator::jacobian;
+    use nalgebra::{Rotation3, Vector3};
 
     fn case() -> (Manipulator, Vec<Pose>) {
-        let text = include_str!("../../../designs/presets/bench-l16.toml");
-        let (design, _) = parse(text, Format::Toml).unwrap();
-        let poses = design.workspace_or_default().sample(&design.home_or_default());
-        (design.manipulator().clone(), poses)
+        let leg = |i: usize| {
+            let t = i as f64;
+            Leg {
+                base: Point3::new(2.0 * t.cos(), 2.0 * t.sin(), 0.1 * t),
+                platform: Point3::new((1.3 * t).sin(), (0.7 * t).cos(), 0.2),
+            }
+        };
+        let at = |k: u32| {
+            let x = |step: f64| (f64::from(k) * step).sin() / 4.0;
+            Pose {
+                rotation: Rotation3::from_euler_angles(x(1.0), x(2.0), x(3.0)),
+                position: Vector3::new(x(1.4), x(1.9), 3.0 + x(2.6)),
+            }
+        };
+        (Manipulator::from_legs(std::array::from_fn(leg)).unwrap(), (0..60).map(at).collect())
     }
 
     #[test]
