@@ -83,7 +83,7 @@ impl Trilateration {
         }
         let design = self.prepared(m)?;
         let evaluated = design.evaluated(s, o)?;
-        Ok(Evaluation::Sequences(design, evaluated))
+        Ok(Evaluation::Sequences(Box::new(design), evaluated))
     }
 
     /// The sequences of a design. Joints in one place are one joint, as for the bounds of the classes.
@@ -183,19 +183,19 @@ pub(super) enum Evaluation {
     /// One length is hidden.
     Hidden(FkSolutions),
     /// The sequences of a design.
-    Sequences(Prepared, Evaluated),
+    Sequences(Box<Prepared>, Evaluated),
 }
 
 impl Evaluation {
     /// The answer if the evaluations prove it, otherwise the evaluations.
-    pub(super) fn proved(self) -> Result<FkSolutions, Self> {
+    pub(super) fn proved(self) -> Result<FkSolutions, Box<Self>> {
         match self {
             Self::Hidden(found) | Self::Sequences(_, Evaluated { found, .. })
                 if found.completeness.is_proved() =>
             {
                 Ok(found)
             }
-            unproved => Err(unproved),
+            unproved => Err(Box::new(unproved)),
         }
     }
 

@@ -34,7 +34,7 @@ impl Field {
 
     /// The integers modulo any number.
     pub(crate) const fn modulo(prime: u64) -> Self {
-        let reciprocal = if prime >> PRIME_BITS != 1 { 0 } else { ((1u128 << 124) / prime as u128) as u64 };
+        let reciprocal = if prime >> PRIME_BITS == 1 { ((1u128 << 124) / prime as u128) as u64 } else { 0 };
         Self { prime, reciprocal }
     }
 

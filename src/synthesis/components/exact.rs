@@ -155,7 +155,8 @@ mod tests {
         // without the joints of the second line nothing is known off the first one
         assert!(!only_crossings(&six, Body::Base, &[0, 1, 2]) || six.rank(&[0, 1, 2]) < 3);
         // without the first platform joint the others span a plane only
-        let flat = general.map(|[x, y, z]| if [x, y, z] == [0.; 3] { [1., 1., 1.] } else { [x, y, 0.] });
+        let flat =
+            general.map(|v| if v.iter().all(|x| x.abs() == 0.) { [1., 1., 1.] } else { [v[0], v[1], 0.] });
         let six = two_lines(flat);
         assert_eq!(doubtful_lines(&six, Body::Base, &all, 0), None);
     }

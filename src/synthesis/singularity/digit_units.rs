@@ -78,7 +78,9 @@ impl DigitUnits {
             }
             weights.iter_mut().zip(&ratios).for_each(|(w, r)| *w *= r);
             let most = weights.iter().copied().fold(0.0, f64::max);
-            weights.iter_mut().for_each(|w| *w = (*w / most).max(LEAST_WEIGHT));
+            for w in &mut weights {
+                *w = (*w / most).max(LEAST_WEIGHT);
+            }
         }
         None
     }

@@ -436,9 +436,9 @@ mod tests {
                 (0..3).for_each(|k| a[k] = o);
                 (a[3], a[4], b[4]) = (o + d * t[0], o + d * t[4], b[3]);
             }
-            "five_between_lines" => {
-                (0..5).for_each(|k| (a[k], b[k]) = (o + d * t[k], p + e * t[(k * k + 1) % 6]))
-            }
+            "five_between_lines" => (0..5).for_each(|k| {
+                (a[k], b[k]) = (o + d * t[k], p + e * t[(k * k + 1) % 6]);
+            }),
             "four_paired" => (0..4).for_each(|k| {
                 (a[k], b[k]) = (o + d * t[k], p + e * ((3.0 * t[k] + 0.2) / (t[k] + 2.5)));
             }),
