@@ -683,7 +683,7 @@ def test_an_interrupt_ends_what_takes_long(call):
 
 def test_an_interrupt_gives_the_best_so_far_and_a_second_one_nothing(tmp_path):
     design = "equipod.Design.load(DESIGNS / 'worked' / 'simulator-300kg.toml')"
-    said = interrupted(f"print('go', flush=True)\nbest, answer = {design}.optimize()\nprint(answer.status)\n", 4.0)
+    said = interrupted(f"print('go', flush=True)\nbest, answer = {design}.optimize()\nprint(answer.status)\n", 1.0)
     assert said.strip() == "interrupted"
     assert ended_by_interrupts(f"{design}.explore({str(tmp_path / 'out')!r})", times=2)
 
